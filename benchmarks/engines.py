@@ -23,7 +23,7 @@ RANKS = [(1, 1), (2, 1), (3, 1), (4, 1), (2, 2)]  # (ranks, threads per rank)
 
 
 def make_tiny(grove, folder, count):
-    """Generates instances with few agents on few cells, which have many conflicts."""
+    """Generates `count` instances with few agents on few cells and therefore many conflicts; returns their paths."""
     instances = []
     for seed in range(count):
         path = folder / f"tiny-{seed}.cts.json"
@@ -34,7 +34,7 @@ def make_tiny(grove, folder, count):
 
 
 def by_threads(grove, instances, threads, limit, folder):
-    """Returns {instance: proven optimum, or None without a proof}."""
+    """Solves the instances with a number of threads and returns {instance: proven optimum or None}."""
     found = {}
     for path in instances:
         found_plan = answer([grove, "solve", path, "--omega", 0, "--threads", threads, "--time-limit", limit],

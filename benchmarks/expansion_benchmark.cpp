@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Measures constraint-tree expansions per second and memory per node: fixed policy, omega = 0, 10
-// agents and 20 tasks, or 20 agents and 50 tasks. The map is random-32-32-20 if the directory
-// GROVE_MOVINGAI has it, otherwise a similar generated map. Plans are ignored, so the search never
-// ends early.
+// Measures constraint-tree expansions per second and memory per node with the fixed policy and
+// omega = 0, for 10 agents and 20 tasks, and for 20 agents and 50 tasks. The map is
+// random-32-32-20 if the directory $GROVE_MOVINGAI has it, otherwise a similar generated map. The
+// benchmark ignores plans, so the search never ends early.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -34,7 +34,7 @@ Source source() {
   return {data / "random-32x32-20.map", data / "random-32x32-20.scen"};
 }
 
-// Expands the best node, and instantiates trees as Algorithm 4 with omega = 0 does.
+// Expands the best node in each step, and instantiates trees like Algorithm 4 with omega = 0.
 class Search {
  public:
   explicit Search(const Instance& instance)
@@ -94,7 +94,7 @@ void BM_Expansions(benchmark::State& state) {
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()));
   state.counters["bytes_per_node"] =
       (static_cast<double>(resident_bytes()) - memory_before) / nodes;
-  state.counters["node_bytes"] = search.node_bytes();  // the part in nodes and their paths
+  state.counters["node_bytes"] = search.node_bytes();  // memory for nodes and their paths
   const ExpansionCounts counts = search.counts();
   state.counters["labels_per_call"] =
       static_cast<double>(counts.low_level_expanded) / static_cast<double>(counts.low_level_calls);

@@ -85,7 +85,7 @@ def classical(arguments):
 
 
 def technique_names(grove):
-    """Returns the techniques of `grove solve --without`, from its error message for an unknown one."""
+    """Returns the techniques that `grove solve --without` accepts, from its error message for an unknown technique."""
     message = subprocess.run([grove, "solve", "--without", "?", "x"], capture_output=True, text=True,
                              check=False).stderr
     names = re.search(r"--without: .*expected one of ([a-z, -]+)", message)
@@ -170,7 +170,7 @@ def parse(words):
 
 
 def complain(rows):
-    """Reports contradictions and failed runs on standard error; returns whether there are any."""
+    """Reports contradictions and failed runs on standard error and returns whether there are any."""
     found = contradictions([row_of(row, row["instance"]) for row in rows])
     if found:
         print("PROOFS CONTRADICT EACH OTHER: not all of these claims can be true", file=sys.stderr)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Measures building MDDs (all agents) and the joint MDD test (all pairs of agents) on instances
-// made by the paper's recipe. Each agent has a given number of constraints; each is a vertex
-// constraint on the optimal path found before it.
+// Measures the time to build MDDs (for all agents) and the joint MDD test (for all pairs of agents)
+// on instances generated as in the paper. Each agent gets a given number of vertex constraints,
+// each on the optimal path under the previous ones.
 //
-// The time shown is the median over the agents or pairs of one pass; worst_us is the longest. Maps
-// and scenarios are those of Moving AI in the directory GROVE_MOVINGAI.
+// The time shown is the median over the agents or pairs of one pass; worst_us is the maximum. Maps
+// and scenarios are those of Moving AI in the directory $GROVE_MOVINGAI.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -66,7 +66,7 @@ class Agents {
     }
   }
 
-  // Returns the time by agent, in microseconds.
+  // Builds the MDDs. Returns the time for each agent in microseconds.
   std::vector<double> build() {
     std::vector<double> times;
     for (Agent& a : agents_)
@@ -75,7 +75,7 @@ class Agents {
       }));
     return times;
   }
-  // Returns the time by pair, in microseconds, and counts the answers.
+  // Tests all pairs. Returns the time for each pair in microseconds, and counts the answers.
   std::vector<double> test(std::vector<int>& answers) {
     answers.assign(3, 0);
     std::vector<double> times;

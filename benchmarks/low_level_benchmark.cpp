@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Measures one call of the low level: a given number of goals on a 32x32 map and a given number of
-// constraints, with ties broken by the conflicts with nine other agents. Each constraint forbids a
-// random cell of the path found so far, or the move to it, at the path's time: the worst case of a
-// branch of the constraint tree.
+// Measures one call of the low level with a given number of goals on a 32x32 map and a given number
+// of constraints. Conflicts with nine other agents break ties. Each constraint forbids a random
+// cell of the path under the previous constraints, or the move to this cell, at the time when the
+// path is there. This is the worst case for a branch of the constraint tree.
 //
 // The time shown is the median over the cases of one pass. labels and max_labels are the median and
-// the maximum number of labels expanded in a call. Maps are generated; if GROVE_MOVINGAI is a
-// directory of Moving AI maps, these are run as well.
+// the maximum number of labels expanded in a call. Maps are generated; the Moving AI maps in the
+// directory $GROVE_MOVINGAI, if it is set, are measured as well.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ namespace {
 constexpr int kSide = 32;
 constexpr int kCases = 48;
 constexpr int kOthers = 9;
-constexpr int kRoom = 5;  // side of a room with its wall
+constexpr int kRoom = 5;  // side of a room including one wall, cells
 
 using Random = std::mt19937;
 
@@ -47,7 +47,7 @@ Grid random_map(Random& random) {
   return Grid(kSide, kSide, passable);
 }
 
-// Rooms of 4x4 cells with a door in each wall between two rooms.
+// Returns a map of rooms of 4x4 cells with a door in each wall between two rooms.
 Grid room_map(Random& random) {
   std::vector<bool> passable(kSide * kSide);
   for (int y = 0; y < kSide; ++y)
@@ -85,7 +85,7 @@ std::vector<Cell> connected_cells(const Grid& grid, Random& random) {
   return best;
 }
 
-// One agent that always visits the nearest goal next.
+// An agent with a fixed sequence in which it always visits the nearest remaining goal next.
 struct Case {
   Case(const Grid& grid, const std::vector<Cell>& cells, int goals);
   PathQuery query() const { return {.constraints = constraints, .others = &others}; }
@@ -127,8 +127,8 @@ Constraint bar_on_path(const Path& path, Random& random) {
   return c;
 }
 
-// Adds constraints on paths of the search that is measured. The result is the worst case of this
-// search only.
+// Adds `count` constraints to case i, each on the path that `search` finds under the previous ones.
+// They are therefore the worst case only for this search.
 template <class Search>
 void pile_up_constraints(std::vector<Case>& cases, Search& search, FixedOrderSipp& check, int count,
                          std::size_t i, Random& random) {
@@ -166,7 +166,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-// The two searches with a common interface.
+// The two searches, with a common interface.
 class Fixed {
  public:
   explicit Fixed(const Grid& grid, const std::vector<Case>&) : search_(grid) {}

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Measures the overhead of a small solve from C++, from Python and as a program, in microseconds.
+"""Measures the overhead of a small solve in C++, in Python and as a program, in microseconds.
 
     overhead.py [BUILD]        (default: build/release)
 
-Solves benchmarks/data/random-32x32-20_n5_m10.cts.json, 5 robots and 10 tasks, to the optimum. Reports
-the median of 200 solves or 30 runs of the program. Needs public_api_benchmark and the Python module.
+Solves benchmarks/data/random-32x32-20_n5_m10.cts.json (5 agents, 10 tasks) to the optimum. Reports the median of 200
+solves, or of 30 runs of the program. Needs public_api_benchmark and the Python module.
 """
 import json
 import statistics

@@ -36,7 +36,10 @@ STUDY = {"auto": "--omega 0"} | {f"cts-cbs_{omega}": f"--policy fixed --omega {o
 
 
 def run(*words):
-    """Runs a command; exits with its code if that is not 0. Only signals to this program are passed on to it."""
+    """Runs a command and exits with its exit code unless that is 0.
+
+    The command has its own process group, so it receives only the signals that this program passes on.
+    """
     try:
         child = subprocess.Popen([str(word) for word in words], process_group=0)
     except OSError as error:
@@ -50,7 +53,7 @@ def run(*words):
 
 
 def settings_of(arguments):
-    """Returns the settings that all results of a folder must share."""
+    """Returns the settings that all results in a folder must have in common."""
     return {"movingai": arguments.movingai and str(Path(arguments.movingai).resolve()),
             "time_limit": float(arguments.time_limit)}
 
@@ -62,7 +65,10 @@ def refuse_other_settings(path, settings):
 
 
 def list_of_study(folder, agents):
-    """Writes and returns the list of the study: rooms, else the last map, with the fewest agents."""
+    """Writes the instance list for the study and returns its path.
+
+    The study uses the rooms map, or the last map if there is none, with the fewest agents.
+    """
     entries = [line for line in (folder / "manifest-cts.txt").read_text(encoding="utf-8").splitlines()
                if line and not line.startswith("#")]
     maps = sorted({entry.split("_s")[0] for entry in entries})

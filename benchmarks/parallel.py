@@ -25,7 +25,7 @@ MODES = ["2-threads", "4-threads", "1-ranks", "2-ranks", "4-ranks", "8-ranks",
 
 
 def command(mode, programs):
-    """Returns (words before the instance, options after it)."""
+    """Returns the command for a mode as (words up to the subcommand, options after the instance)."""
     kind, number = sorted(mode.split("-"), key=str.isdigit)
     if kind == "ranks":
         binding = [] if int(number) <= (os.cpu_count() or 1) else ["--oversubscribe", "--bind-to", "none"]
@@ -35,7 +35,7 @@ def command(mode, programs):
 
 
 def solve(mode, instance, a, folder):
-    """Returns seconds, cost and statistics of the median run; all runs must prove the optimum."""
+    """Returns the seconds, cost and statistics of the run with the median time. All runs must prove the optimum."""
     before, after = command(mode, a.bin)
     found = median_optimum([*before, "solve", *instance, "--omega", 0, "--time-limit", a.time_limit,
                             *after], folder / "plan.json", a.repeat)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Measures the overhead of the public API: a small solve with and without it, in microseconds.
+// Measures the overhead of the public API by a small solve with and without it, in microseconds.
 // overhead.py compares both with Python and with the program.
 #include <benchmark/benchmark.h>
 

@@ -31,7 +31,7 @@ BASELINES = (*EXACT, "s-cbs")
 A, B, C = ADAPTATIONS = ("cts-cbs-a", "cts-cbs-b", "cts-cbs-c")
 NAMES = {"auto": "Grove", A: "A", B: "B", C: "C", "optimal-cbs": "Optimal-CBS", "hcbs": "HCBS", "mgcbs": "MGCBS",
          "s-cbs": "S-CBS"}
-SIMILAR = 0.1  # maximum difference of success rates that count as similar
+SIMILAR = 0.1  # maximum difference between success rates that count as similar
 OMEGAS = ("0", "0.01", "0.1", "inf")
 
 
@@ -45,14 +45,14 @@ def our_rows():
 
 
 def comparison(rows):
-    """Returns {cell: {method: Measures}} of MG-MAPF."""
+    """Returns {cell: {method: Measures}} for MG-MAPF."""
     rows = [row for row in rows if row.problem == "mg"]
     return {cell: {line.method: measures for line, measures in lines.items()}
             for cell, lines in by_cell(rows, best_costs(rows)).items()}
 
 
 def study(rows):
-    """Returns {(method, omega): Measures} of CTS-MAPF, rooms with 5 agents."""
+    """Returns {(method, omega): Measures} for CTS-MAPF on the rooms map with 5 agents."""
     rows = [row for row in rows if row.problem == "cts"]
     return {(line.method, line.omega): measures for line, measures in measures_by_line(rows, best_costs(rows)).items()}
 
@@ -70,13 +70,13 @@ def seconds(value):
 
 
 def pairs(cells, firsts, others):
-    """Returns (cell, method, its measures, other method, its measures) of all cells."""
+    """Returns [(cell, method, its Measures, other method, its Measures)] for all cells and pairs of methods."""
     return [(cell, first, lines[first], second, lines[second]) for cell, lines in cells.items()
             for first in firsts for second in others]
 
 
 def largest(cells, ratio):
-    """Returns the largest ratio of an adaptation to a baseline, and its (first) cell, as text."""
+    """Returns, as text, the largest ratio of an adaptation to a baseline and the first cell where it occurs."""
     found = [(ratio(one, other), cell, name, second)
              for cell, name, one, second, other in pairs(cells, ADAPTATIONS, BASELINES) if one.solved and other.solved]
     value, cell, name, second = max(found, key=lambda each: each[0])
@@ -92,7 +92,7 @@ def speed_up(cells):
 
 
 def losses(cells, methods, baselines):
-    """Returns (relative loss of mean SQR, cell, method) against the baselines, where both solve an instance."""
+    """Returns [(relative loss of mean SQR against a baseline, cell, method)] where both solve an instance."""
     return [(1 - one.mean_sqr / other.mean_sqr, cell, method)
             for cell, method, one, _, other in pairs(cells, methods, baselines) if one.solved and other.solved]
 
@@ -108,7 +108,7 @@ def quality_a(cells):
 
 
 def of(cells, is_true):
-    return f"{sum(map(is_true, cells.values()))} of {len(cells)} cells"
+    return f"{sum(map(is_true, cells.values()))} of {len(cells)} configurations"
 
 
 def rooms(cells):
@@ -122,7 +122,8 @@ def best_success(lines):
 def room_success_a(cells):
     some = {cell: lines for cell, lines in rooms(cells).items() if max(best_success(lines), lines[A].success) > 0}
     higher, lower = (sum(sign * (lines[A].success - best_success(lines)) > 0 for lines in some.values()) for sign in (1, -1))
-    return f"than all: {higher} of the {len(some)} cells in which A or a baseline solves any; lower than the best: {lower}"
+    return f"than all: {higher} of the {len(some)} configurations in which A or a baseline solves any; " \
+        f"lower than the best: {lower}"
 
 
 def fastest(lines):
@@ -139,13 +140,13 @@ def success_b(cells):
     ratios = [lines[B].success / best_success(lines) for lines in cells.values() if best_success(lines)]
     none = sum(not best_success(lines) and lines[B].success > 0 for lines in cells.values())
     return f"of the best baseline's: {min(ratios):.1f} to {max(ratios):.1f} times, in the median {statistics.median(ratios):.1f} " \
-        f"times; in {none} cells B alone solves any"
+        f"times; in {none} configurations B alone solves any"
 
 
 def runtime_b(cells):
     ratios = [fastest(lines) / lines[B].mean_runtime_s for lines in cells.values()]
-    return f"than the fastest baseline's: ten times and more in {sum(ratio >= 10 for ratio in ratios)} of {len(ratios)} cells, " \
-        f"{max(ratios):.0f} times at most"
+    return f"than the fastest baseline's: ten times and more in {sum(ratio >= 10 for ratio in ratios)} of {len(ratios)} " \
+        f"configurations, {max(ratios):.0f} times at most"
 
 
 def quality_b(cells):
@@ -165,7 +166,7 @@ def runtime_c(cells):
 
 
 def quality_c(cells):
-    """Returns the mean SQRs of A, C and B in the easiest and the hardest third of the cells, by A's success rate."""
+    """Returns the mean SQRs of A, C and B in the easiest and the hardest third of the cells by A's success rate."""
     both = sorted(((lines[A].success, lines) for lines in cells.values() if lines[A].solved and lines[B].solved and lines[C].solved),
                   key=lambda entry: -entry[0])
     third = max(1, len(both) // 3)
@@ -226,7 +227,7 @@ PARTS = {"claims": (claims_table, GUIDE), "omega": (omega_table, GUIDE)} | {
 
 
 def marked(name):
-    """Returns the pattern of the place of a table in a page."""
+    """Returns a pattern that matches the place of the table `name` in a page."""
     return re.compile(rf"(<!-- published\.py {name} -->\n).*?(?=\n<!-- end -->)", re.S)
 
 

@@ -11,9 +11,9 @@
     benchmarks/scaling.py draw                                     scaling.png from these; needs matplotlib
     benchmarks/scaling.py tables                                   tables in Markdown, to stdout
 
-All read and write the folder --output. Every run starts from an optimal plan, which is found first, and without
-primal heuristics. So the set of nodes to expand hardly depends on the number of ranks. results/scaling/README.md
-has the results.
+All commands read and write the folder --output. Every run starts from an optimal plan, which is computed first, and
+uses no primal heuristics. Therefore the set of nodes to expand hardly depends on the number of ranks.
+results/scaling/README.md has the results.
 """
 import argparse
 import concurrent.futures
@@ -33,11 +33,11 @@ from harness.programs import MPIRUN, add_folders, median_optimum, optimum, run
 
 HERE = Path(__file__).resolve().parent
 
-# Proven optimal after about 10^5 nodes. A simulation takes as long as one rank needs, and longer if the ranks
-# expand more nodes.
+# These cases are solved to the optimum after about 10^5 nodes. A simulation takes as long as a run on one rank, and
+# longer if the ranks expand more nodes.
 HARD = [Case("room-32-32-4", 22, 40, 2), Case("random-32-32-20", 50, None, 1),
         Case("room-32-32-4", 40, None, 4)]
-# One core needs minutes and 10^6 nodes or more for each; data/long has their start plans.
+# Each of these cases takes one core minutes and at least 10^6 nodes. data/long has their start plans.
 OPEN = "map random --width 32 --height 32 --obstacles 0.2 --seed 1"
 ROOMS = "map rooms --width 32 --height 32 --seed 1"
 WAREHOUSE = "roadmap --kind warehouse"
@@ -45,14 +45,14 @@ LONG = [DrawnCase("rooms-50-mapf", ROOMS, 50, None, 1), DrawnCase("open-60-mapf"
          DrawnCase("open-40-40", OPEN, 40, 40, 1), DrawnCase("rooms-25-60-mg", ROOMS, 25, 60, 1, mg=True),
          DrawnCase("rooms-25-50-mg", ROOMS, 25, 50, 1, mg=True),
          DrawnCase("warehouse-100-200", WAREHOUSE, 100, 200, 1)]
-# Weak scaling: instances of growing size, for a growing number of ranks.
+# Cases of increasing size for weak scaling, each with a larger number of ranks.
 WEAK = [DrawnCase(f"rooms-{agents}-mapf", ROOMS, agents, None, 1) for agents in (40, 43, 45, 50)]
-# Seconds on one core, for measurements on this machine.
+# Each of these cases takes seconds on one core, for measurements on the current machine.
 SHORT = [Case("room-32-32-4", 20, 20, 3), Case("room-32-32-4", 20, 30, 3),
          Case("room-32-32-4", 20, 40, 1), Case("room-32-32-4", 20, 40, 2)]
 RANKS = [1, 2, 16, 128, 1024, 4096]
 PROCESSOR_RANKS = [1, 2, 4, 8]
-COST_PER_WORK = 1.3e-7  # seconds; see results/scaling/README.md
+COST_PER_WORK = 1.3e-7  # seconds per unit of effort; see results/scaling/README.md
 NO_LIMIT = ["--time-limit", 40000]
 FREE_MESSAGES = ["--latency", 0, "--message-cost", 0, "--bandwidth", 1e15, "--poll", 0]
 OPTIMAL = ["--omega", 0]
@@ -60,13 +60,13 @@ TREE_ONLY = ["--threads", 1, "--without", "primal,lacam"]
 
 
 def until_bound_of(plan):
-    """Returns options: start from a plan, and end when the lower bound in its file is proven."""
+    """Returns options to start from a plan and to end as soon as the lower bound in its file is proven."""
     known = json.loads(plan.read_text(encoding="utf-8"))
     return ["--omega", f"{math.ceil((known['cost'] / known['lower_bound'] - 1) * 1e6) / 1e6:f}", "--start", plan]
 
 
 def prepared(case, a, folder):
-    """Returns the arguments for a case and its start plan: the one in data/long, else an optimal one."""
+    """Returns the arguments for a case and its start plan: the plan in data/long if it exists, else an optimal plan."""
     instance = instance_arguments(a.bin / "grove", Maps(a.maps), case, folder)
     kept = HERE / f"data/long/{case}.plan.json"
     if kept.exists():
@@ -77,7 +77,7 @@ def prepared(case, a, folder):
 
 
 def simulated(case, problem, ranks, a, folder, machine=()):
-    """Simulates a case; returns a row per number of ranks, without runs that reached a limit."""
+    """Simulates a case and returns a row per number of ranks, without runs that reached a limit."""
     table = folder / "table.csv"
     run([a.bin / "grove-sim", *problem, "--ranks", ",".join(map(str, ranks)), "--seconds-per-work",
          a.cost_per_work, "--memory-limit", a.memory_limit, "--output", table, *machine])
@@ -90,7 +90,7 @@ def simulated(case, problem, ranks, a, folder, machine=()):
 
 
 def measured(before, problem, a, folder):
-    """Returns seconds and nodes of the median run."""
+    """Returns the seconds and the number of expanded nodes of the run with the median time."""
     stats = median_optimum([*before, "solve", *problem, *TREE_ONLY], folder / "plan.json", a.repeat)["stats"]
     return stats["wall_s"], stats["nodes_expanded"]
 
@@ -117,7 +117,7 @@ def chosen(cases, a):
 
 
 def merge(path, rows):
-    """Replaces the rows of a file with the same instance and number of ranks; keeps the others."""
+    """Replaces the rows in a file that have the same instance and number of ranks as new rows. Keeps all other rows."""
     def key(row):
         return order.index(row["instance"]), int(row.get("ranks", 0))
 
@@ -149,7 +149,7 @@ def long(a):
 
 
 def ranks_for(alone, seconds):
-    """Returns a number of ranks so that each has about `seconds` of the work of a single rank."""
+    """Returns the number of ranks, at least 2, among which a run on one rank divides into parts of about `seconds`."""
     return max(2, round(float(alone["wall_s"]) / seconds))
 
 
@@ -192,7 +192,7 @@ def compare(a):
 
 
 def processor_time(command):
-    """Runs a command; returns the processor time of all its processes, seconds."""
+    """Runs a command and returns the processor time of all its processes, in seconds."""
     def used():
         usage = resource.getrusage(resource.RUSAGE_CHILDREN)
         return usage.ru_utime + usage.ru_stime
@@ -203,7 +203,7 @@ def processor_time(command):
 
 
 def by_processor(ranks, problem, a, folder):
-    """Returns the median processor time of a search on `ranks` ranks, seconds, minus the time without a search."""
+    """Returns the median processor time of a search on `ranks` ranks in seconds, minus the time without a search."""
     solve = [*MPIRUN, "--oversubscribe", "--bind-to", "none", "-np", ranks, a.bin / "grove-mpi", "solve",
              *problem, *TREE_ONLY, "--quiet", "--output", folder / "plan.json"]
     return statistics.median(processor_time(solve) - processor_time([*solve, "--time-limit", 0.001])
@@ -211,7 +211,7 @@ def by_processor(ranks, problem, a, folder):
 
 
 def processor(a):
-    """Measures more ranks than cores: the processor time of all ranks."""
+    """Measures the total processor time of all ranks, also for more ranks than cores."""
     for case in chosen(SHORT, a):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
@@ -224,9 +224,9 @@ def processor(a):
 
 
 def shares(row):
-    """Returns the shares of the workers' time in a run; they sum to 1.
+    """Returns the shares into which the workers' time in a run divides. They sum to 1.
 
-    If all ranks together expand for less time than a single rank, the overhead is 0.
+    If all ranks together spend less time on expansions than a single rank, the overhead is 0.
     """
     whole = float(row["wall_s"]) * int(row["ranks"])
     working = int(row["ranks"]) - int(row["ranks_without_node"])
@@ -266,7 +266,7 @@ def simulated_table(rows, free):
 
 
 def earlier_table(earlier, now):
-    """Returns a table of an earlier version, with the current one where it was simulated, too."""
+    """Returns a table that compares the results of an earlier version with the current results, where they exist."""
     present = {(row["instance"], row["ranks"]): row for row in now}
     head = ["instance", "ranks", "time", "time now", "efficiency", "efficiency now", "search overhead",
             "search overhead now"]
@@ -307,7 +307,7 @@ def compared_table(rows):
 
 
 def processor_table(rows):
-    """Returns a table of how much more processor time all ranks take than one rank."""
+    """Returns a table of the increase of the total processor time with the number of ranks, relative to one rank."""
     def growth(instance, column):
         times = [float(row[column]) for row in rows if row["instance"] == instance]
         return [f"{100 * (time / times[0] - 1):+.0f} %" for time in times[1:]]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Measures sequencing on random places of random 32x32 grids: tables, K-best lists, sequence
+// Measures sequencing for random places on random 32x32 grids: tables, K-best lists and sequence
 // graphs.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -18,8 +18,8 @@
 namespace grove::detail {
 namespace {
 
-// Cost matrix of one agent with n tasks on a grid with a fifth of its cells blocked. The same seed
-// gives the same matrix.
+// Returns the cost matrix of an agent with n tasks on a grid with a fifth of its cells blocked. The
+// same seed gives the same matrix.
 CostMatrix random_matrix(int n, std::uint32_t seed) {
   std::mt19937 random(seed);
   constexpr int kSide = 32;
@@ -27,7 +27,7 @@ CostMatrix random_matrix(int n, std::uint32_t seed) {
   for (std::size_t i = 0; i < passable.size(); ++i) passable[i] = random() % 5 != 0;
   for (int i = kSide / 4; i < kSide; ++i) passable[kSide / 2 * kSide + i] = true;
   const Grid grid(kSide, kSide, passable);
-  // Places are drawn from the cells reachable from the middle: nearly all.
+  // Draws places from the cells that are reachable from the middle, which are nearly all.
   const DistanceField reach = distance_field(grid, grid.cell({kSide / 2, kSide / 2}));
   std::vector<Cell> places;
   while (std::ssize(places) < n + 2) {
@@ -44,7 +44,7 @@ CostMatrix random_matrix(int n, std::uint32_t seed) {
   return cost_matrix(instance, 0, DistanceFields(instance));
 }
 
-// The first query builds the table.
+// Measures the first query, which builds the table.
 void table(benchmark::State& state) {
   const CostMatrix matrix = random_matrix(static_cast<int>(state.range(0)), 1);
   const Limits limits;
@@ -56,7 +56,7 @@ void table(benchmark::State& state) {
 BENCHMARK(table)->Arg(10)->Arg(14)->Arg(16)->Arg(18)->Arg(20)->Arg(22)->Unit(
     benchmark::kMillisecond);
 
-// K-best sequences, without the time for the table or graph of the first sequence.
+// Measures the K best sequences, without the time for the table or graph that the first one needs.
 void k_best(benchmark::State& state, RtspBackend backend) {
   const CostMatrix matrix = random_matrix(static_cast<int>(state.range(0)), 1);
   const Limits limits;
@@ -87,7 +87,7 @@ BENCHMARK_CAPTURE(k_best, cbc, RtspBackend::kCbc)
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
 
-// Building the graph for the best sequence, and the size of the graph.
+// Measures the time to build the graph for the best sequence, and the size of the graph.
 void graph(benchmark::State& state) {
   const CostMatrix matrix =
       random_matrix(static_cast<int>(state.range(0)), static_cast<std::uint32_t>(state.range(1)));
@@ -108,7 +108,7 @@ BENCHMARK(graph)
     ->ArgsProduct({{10, 14, 18, 20, 24, 30, 36}, {1, 2, 3, 4, 5}})
     ->Unit(benchmark::kMillisecond);
 
-// The first joint sequences of many agents with 8 tasks each.
+// Measures the first joint sequences of many agents with 8 tasks each.
 void joint(benchmark::State& state) {
   const auto agents = static_cast<std::uint32_t>(state.range(0));
   const Limits limits;

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-# All dependencies of the build are Debian packages of tools/packages; nothing is downloaded. The
-# dependencies of tests and benchmarks (tools/packages.test) are found in their folders.
+# Finds the dependencies of the build. All are Debian packages listed in tools/packages; nothing is downloaded. The
+# folders of tests and benchmarks find their own dependencies (tools/packages.test, tools/packages.test-all).
 find_package(fmt REQUIRED)
 find_package(nlohmann_json 3.10 REQUIRED)
 find_package(yaml-cpp 0.7 REQUIRED)
 find_package(pugixml 1.12 REQUIRED)
-# Some test programs have command lines, too.
+# Some test programs have command lines, so tests need CLI11 too.
 if(GROVE_BUILD_TOOLS OR GROVE_BUILD_TESTS)
   find_package(CLI11 REQUIRED)
 endif()
@@ -23,9 +23,9 @@ if(GROVE_BUILD_TOOLS)
 endif()
 if(GROVE_WITH_CBC)
   pkg_check_modules(CBC REQUIRED IMPORTED_TARGET cbc)
-  # Programs link the static archives of CBC and its dependencies if they exist: resolving the symbols
-  # of six shared libraries takes about 40 % of the start-up time of a program. (Shared libraries cannot
-  # link Debian's archives, which are not position-independent.)
+  # Programs link the static archives of CBC and its dependencies if they exist, because resolving the symbols of six
+  # shared libraries takes about 40 % of the start-up time of a program. Shared libraries cannot link Debian's archives,
+  # which are not position-independent.
   foreach(library IN LISTS CBC_LINK_LIBRARIES)
     string(REGEX REPLACE "/lib(Cbc|Cgl|Clp|CoinUtils|Osi)([A-Za-z]*)\\.so$" "/lib\\1\\2.a" archive ${library})
     if(EXISTS ${archive})

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
 # Optional tools and flags that make builds faster.
 
-# ccache keeps compiler results between builds. (With precompiled headers it must ignore their time stamps;
-# it then asks the compiler for the files that a source includes.)
+# ccache keeps compiler results between builds. Because of precompiled headers it must ignore time stamps, and it gets
+# the list of included files from the compiler (depend mode).
 find_program(GROVE_CCACHE ccache)
 if(GROVE_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER
     env CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros ${GROVE_CCACHE})
 endif()
 
-# A faster linker.
+# Uses the first available of the faster linkers.
 include(CheckLinkerFlag)
 foreach(linker mold lld)
   check_linker_flag(CXX -fuse-ld=${linker} GROVE_LINKS_WITH_${linker})
@@ -19,5 +19,5 @@ foreach(linker mold lld)
   endif()
 endforeach()
 
-# Makes GCC collect garbage less often, which is faster and uses more memory.
+# Makes GCC collect garbage less often. This is faster but uses more memory.
 add_compile_options($<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1048576>)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-# FindMPI caches a failed search and then always fails. A search fails, for example, while the machine has no
-# active network interface, because Open MPI's compiler wrapper then prints a message among its flags. So
-# grove_find_mpi() clears a failed search from the cache and quotes the message of the wrapper.
+# FindMPI caches a failed search and then always fails. A search fails, for example, while the machine has no active
+# network interface, because Open MPI's compiler wrapper then prints a message among its flags. Therefore
+# grove_find_mpi() removes a failed search from the cache and quotes the message of the wrapper.
 
-# grove_forget_cached(<prefix> <name> ...): removes all cache variables with the prefix except the named ones.
+# grove_forget_cached(<prefix> <name> ...): removes all cache variables with the prefix, except those named <name>.
 function(grove_forget_cached prefix)
   get_cmake_property(cached CACHE_VARIABLES)
   list(FILTER cached INCLUDE REGEX "^${prefix}")
@@ -14,7 +14,8 @@ function(grove_forget_cached prefix)
   endforeach()
 endfunction()
 
-# grove_find_mpi(): defines MPI::MPI_CXX, or ends the configuration; the next configuration searches again.
+# grove_find_mpi(): defines MPI::MPI_CXX or stops the configuration with an error. The next configuration searches
+# again.
 macro(grove_find_mpi)
   get_cmake_property(grove_given CACHE_VARIABLES)
   find_package(MPI 3.1 QUIET COMPONENTS CXX)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Installation rules. Components: libraries, mpi_libraries, development, python, programs, pictures,
-# mpi_programs; each becomes a package (GrovePackage.cmake).
+# Installation rules. The components are libraries, mpi_libraries, development, python, programs, pictures and
+# mpi_programs. Each becomes a Debian package (GrovePackage.cmake).
 include(CMakePackageConfigHelpers)
 
 install(TARGETS grove_library EXPORT groveTargets
@@ -44,8 +44,8 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/minimal ${PROJECT_SOURCE_DIR}/e
   FILES_MATCHING PATTERN "*.cpp" PATTERN "*.h")
 
 if(GROVE_WITH_PYTHON)
-  # Python's search path depends on PREFIX: a virtual environment has site-packages, Debian's Python
-  # dist-packages.
+  # The folder of modules depends on the installation prefix: a virtual environment has site-packages, Debian's Python
+  # has dist-packages.
   set(grove_python python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR})
   if(Python_SITELIB MATCHES dist-packages)
     set(grove_outside dist-packages)
@@ -100,8 +100,8 @@ install(FILES ${grove_pages} DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT progr
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/benchmarks/data/
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT programs
   FILES_MATCHING PATTERN "*.map" PATTERN "*.scen" PATTERN "*.json")
-# Programs that `grove report` and other commands execute are installed in a separate folder, because users do
-# not call them directly. The folder has a link to grove for programs that call it.
+# Helper programs that grove executes, for instance for `grove report`, are installed in a separate folder, because
+# users do not call them directly. The folder has a link to grove for helper programs that call grove.
 set(grove_helper_programs ${CMAKE_INSTALL_LIBEXECDIR}/grove)
 install(TARGETS grove-follow RUNTIME DESTINATION ${grove_helper_programs} COMPONENT programs)
 install(TARGETS grove-picture RUNTIME DESTINATION ${grove_helper_programs} COMPONENT pictures)
@@ -123,6 +123,6 @@ file(RELATIVE_PATH grove_from_helper_programs
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/helper_programs)
 file(CREATE_LINK ${grove_from_helper_programs} ${PROJECT_BINARY_DIR}/helper_programs/grove SYMBOLIC)
 install(FILES ${PROJECT_BINARY_DIR}/helper_programs/grove DESTINATION ${grove_helper_programs} COMPONENT programs)
-# JSON schemas for editors: docs/formats.md.
+# JSON schemas for editors; see docs/formats.md.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/schemas
   DESTINATION ${CMAKE_INSTALL_DATADIR}/grove COMPONENT programs)

@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: MIT
-# Assertions, including those of the standard library, in debug and sanitizer builds. All targets use the same
-# setting, because headers contain assertions.
+# Enables assertions, also in the standard library, in debug and sanitizer builds. All targets use the same setting,
+# because headers contain assertions.
 add_compile_definitions("$<$<CONFIG:Debug>:GROVE_ASSERTIONS=1;_GLIBCXX_ASSERTIONS>")
 
-# Compiler options and text output library of all targets.
+# Compiler options and the text output library (fmt) for all targets.
 add_library(grove_options INTERFACE)
 target_link_libraries(grove_options INTERFACE fmt::fmt)
 target_compile_options(grove_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   $<$<BOOL:${GROVE_WERROR}>:-Werror>
-  # False positive of GCC 12: overlapping copies in std::string's operator+ (GCC bug 105651).
+  # GCC 12 reports overlapping copies in std::string's operator+, a false positive (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
-  # Clang 17 and later warn about a function that std::stable_sort of GCC 12's library calls.
+  # Clang 17 and later warn about a deprecated function that std::stable_sort calls in the library of GCC 12.
   $<$<AND:$<CXX_COMPILER_ID:Clang>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,17>>:-Wno-error=deprecated-declarations>
   # GCC does not recognise unity builds and warns about classes with members from unnamed namespaces.
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>)
 
-# Precompiled headers of most sources, because parsing headers takes longer than compiling the sources. There are
-# two versions if hot code is compiled with other flags.
+# Precompiled headers for most sources, because parsing headers takes longer than compiling the sources. If hot code is
+# compiled with additional flags, it has its own precompiled header.
 set(GROVE_HOT_FLAGS "" CACHE STRING "Additional compiler flags for hot code")
 function(grove_headers name)
   add_library(${name} STATIC ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
@@ -35,8 +35,9 @@ else()
 endif()
 
 # grove_compile(<target> [HOT | COLD])
-# Sets how the sources of a target are compiled. HOT: most run time is spent in it. COLD: hardly any run time
-# is spent in it, and its headers take long to optimise; all its sources are compiled as one.
+# Sets the compiler options of a target. HOT is for code that takes most of the run time. COLD is for code that
+# takes hardly any run time and whose headers take long to optimise: it is compiled with -O1 in release builds and, in
+# unity builds, as one source.
 function(grove_compile target)
   cmake_parse_arguments(COMPILE "HOT;COLD" "" "" ${ARGN})
   target_link_libraries(${target} PRIVATE grove_options)
@@ -67,8 +68,7 @@ function(grove_layer name)
 endfunction()
 
 # grove_private_headers(<name> <header> ...)
-# Lists the headers of grove_<name> that no other layer includes; tests/structure compares the list with the
-# sources.
+# Declares the headers of grove_<name> that no other layer includes. tests/structure compares the list with the sources.
 function(grove_private_headers name)
   target_sources(grove_${name} PRIVATE ${ARGN})
 endfunction()

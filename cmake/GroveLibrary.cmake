@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-# The installed library: the public API and all layers below it in one file, shared or static.
+# The installed library, which has the public API and all layers below it in one file, shared or static.
 set(grove_library_layers model execution io sequencing planning joint lagrangian conflicts search primal baselines engine api)
 list(TRANSFORM grove_library_layers PREPEND grove_)
 
-# Common properties. Before 1.0 minor versions may break the ABI, so the SONAME contains the minor version.
+# Sets properties of all library targets. Before version 1.0 a minor version may break the ABI, so the SONAME contains
+# the minor version.
 function(grove_library target name)
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} LINKER_LANGUAGE CXX
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
@@ -17,11 +18,11 @@ add_library(grove_library SHARED $<TARGET_OBJECTS:grove_api>)
 add_library(grove::grove ALIAS grove_library)
 grove_library(grove_library grove)
 target_link_libraries(grove_library PRIVATE grove_api)
-# Hides the symbols of the layers and of the libraries that they use.
+# Hides the symbols of static libraries: the layers and their dependencies.
 target_link_options(grove_library PRIVATE -Wl,--exclude-libs,ALL)
 set_target_properties(grove_library PROPERTIES EXPORT_NAME grove)
 
-# The same library with grove::mpi::solve(). A program links only one of the two.
+# A second library with the same content and grove::mpi::solve(). A program links only one of the two libraries.
 if(GROVE_WITH_MPI)
   add_library(grove_mpi_library SHARED $<TARGET_OBJECTS:grove_api> ${PROJECT_SOURCE_DIR}/mpi/public_api.cpp)
   add_library(grove::mpi ALIAS grove_mpi_library)
@@ -37,7 +38,7 @@ list(TRANSFORM objects REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>")
 add_library(grove_static STATIC ${objects})
 add_library(grove::grove_static ALIAS grove_static)
 grove_library(grove_static grove)
-# Users of the static library link its dependencies by name, because these are in the linker's search path.
+# Programs link the dependencies of the static library by name, because they are in the linker's search path.
 set(grove_needs fmt z yaml-cpp pugixml pthread)
 if(GROVE_WITH_CBC)
   list(APPEND grove_needs Cbc Cgl OsiClp ClpSolver Clp Osi CoinUtils)

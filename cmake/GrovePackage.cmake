@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Debian packages made by `cpack`, one per installed component. The folders of libraries and Python modules depend
-# on the prefix, so packages need a build for /usr: tools/package.
+# Debian packages, which `cpack` makes, one per installed component. The folders of libraries and Python modules depend
+# on the prefix, so packages need a build with prefix /usr (tools/package).
 if(NOT PROJECT_IS_TOP_LEVEL OR NOT GROVE_BUILD_TOOLS OR NOT CMAKE_INSTALL_PREFIX STREQUAL /usr)
   return()
 endif()
@@ -13,7 +13,7 @@ set(CPACK_SET_DESTDIR ON)
 set(CPACK_INSTALL_PREFIX /usr)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
-set(CPACK_DEBIAN_PACKAGE_RELEASE 0grove1)  # sorts before a version of Debian
+set(CPACK_DEBIAN_PACKAGE_RELEASE 0grove1)  # lower than any revision of a package by Debian
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
@@ -23,7 +23,7 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 set(CPACK_DEBIAN_PACKAGE_SOURCE grove)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own summary
 set(grove_debian ${PROJECT_SOURCE_DIR}/cmake/package)
-# Debian policy: stripped programs, copyright, changelogs, compressed manual pages.
+# Does what Debian policy requires: strips programs, adds copyright and changelogs, compresses manual pages.
 set(CPACK_PRE_BUILD_SCRIPTS ${grove_debian}/finish.cmake)
 
 # grove_package(COMPONENT NAME SECTION SUMMARY TEXT [FIELD VALUE]...)
@@ -50,8 +50,8 @@ set(grove_abi ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(grove_same "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 
 set(CPACK_COMPONENTS_ALL "")
-# Depends on python3, because three of the commands are Python programs. Other packages are only suggested: they
-# bring MPI, X11 or a hundred packages, and few users need them. A command reports a missing package.
+# Depends on python3, because three commands are Python programs. Other packages are only suggested, because few users
+# need them and they would install MPI, X11 or a hundred packages. A command reports a package that it misses.
 grove_package(programs grove science
   "solver for multi-agent path finding with tasks and proven bounds"
   "${grove_what}the programs: grove; grove-sim, which predicts the
@@ -82,7 +82,7 @@ if(GROVE_WITH_CBC)
   string(APPEND grove_may_need ", coinor-libcbc-dev")
 endif()
 if(GROVE_WITH_MPI)
-  # A separate package, because it depends on an MPI.
+  # A separate package, because it depends on an MPI implementation.
   grove_package(mpi_libraries libgrove-mpi${grove_abi} libs
     "solver for multi-agent path finding with tasks - shared MPI library"
     "${grove_what}the library for programs in C++ of many processes.")
@@ -90,8 +90,8 @@ if(GROVE_WITH_MPI)
   string(APPEND grove_needs_libraries ", libgrove-mpi${grove_abi} ${grove_same}")
   string(APPEND grove_may_need ", libopenmpi-dev")
 endif()
-# Not dependencies, because few users need them: the libraries of the static library, and an MPI for the component
-# mpi.
+# Does not depend on the libraries that the static library needs, nor on an MPI for the component mpi, because few users
+# need them.
 grove_package(development libgrove-dev libdevel
   "solver for multi-agent path finding with tasks - development files"
   "${grove_what}headers, the static library, and the files for CMake
@@ -106,7 +106,7 @@ if(GROVE_WITH_PYTHON)
     RECOMMENDS python3-numpy SUGGESTS python3-pandas)
 endif()
 
-# Installing and removing the package also makes and removes the bytecode of its Python programs.
+# Scripts that make and remove the bytecode of Python programs when a package is installed and removed.
 foreach(component programs python)
   string(TOUPPER ${component} upper)
   set(GROVE_PACKAGE ${CPACK_DEBIAN_${upper}_PACKAGE_NAME})

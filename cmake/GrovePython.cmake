@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Selects the Python of the module: Debian's, for which useful packages exist, unless Python_EXECUTABLE names another
-# one.
+# Selects the Python interpreter for the module: Debian's, for which useful packages exist, unless Python_EXECUTABLE
+# names a different one.
 if(NOT DEFINED Python_EXECUTABLE AND EXISTS /usr/bin/python3)
   set(Python_EXECUTABLE /usr/bin/python3)
 endif()
@@ -11,7 +11,7 @@ if(GROVE_BUILD_TOOLS)
     find_package(pybind11 2.9 QUIET)
   endif()
 endif()
-# The module uses the page code of the programs.
+# The module depends on the programs, because it uses their code for HTML pages.
 include(CMakeDependentOption)
 cmake_dependent_option(GROVE_WITH_PYTHON "Build the Python module" "${pybind11_FOUND}" GROVE_BUILD_TOOLS OFF)
 if(GROVE_WITH_PYTHON)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# compile_python(INTERPRETER FOLDER), for `cmake --install`: compiles installed Python files, as Python would at the
-# first run, and adds the results to the install manifest, so that uninstalling by the manifest leaves nothing.
-# Debian packages compile at their installation instead.
+# compile_python(INTERPRETER FOLDER): compiles installed Python files during `cmake --install`, as Python would at the
+# first run, and adds the results to the install manifest, so that uninstalling by the manifest leaves no files behind.
+# Debian packages compile them when they are installed instead.
 function(compile_python interpreter folder)
   if(NOT "$ENV{DESTDIR}" STREQUAL "" OR NOT EXISTS "${interpreter}")
     return()

@@ -1,2 +1,3 @@
 // SPDX-License-Identifier: MIT
-// A library needs a source; this one is there for its precompiled header.
+// The only source of the library that provides the precompiled header, because a library needs a
+// source.

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks certificates of classical MAPF that use only vertex and edge splits: docs/proof.md in a page of Python.
+"""Checks certificates of classical MAPF with only vertex and edge splits: a minimal implementation of docs/proof.md.
 
     proof_checker.py INSTANCE.cts.json PROOF
 
-Instances: maps, agents with a start and a goal, no tasks, no turns. Certificates: no lemmas, only the rules `leaf`
-and `split`, only the constraints `bar` and `move`; a compressed one needs zstd. This program is meant for reading:
-grove-verify checks all certificates, and faster. It uses at most 1 GB of memory and refuses a certificate that
-needs more.
+An instance must be on a map, and its agents must have a start and a goal but no tasks and no turning. A certificate may
+use only the rules `leaf` and `split` and the constraints `bar` and `move`, and no lemmas. A compressed certificate
+requires the program zstd. This program is meant to be read; grove-verify checks all certificates and is faster. This
+program uses at most 1 GB of memory and refuses a certificate that needs more.
 """
 import heapq
 import json
@@ -31,7 +31,7 @@ def expect(condition, reason):
 
 
 def members(pairs):
-    """Returns a JSON object without remarks. Refuses duplicate keys."""
+    """Returns a JSON object as a dictionary, without keys that are remarks. Refuses duplicate keys."""
     expect(len(dict(pairs)) == len(pairs), "a key is there twice")
     return {key: value for key, value in pairs if not key.startswith("_") and key != "$schema"}
 
@@ -40,7 +40,7 @@ def read_instance(path):
     """Returns (neighbours of each place, starts, goals, checksum)."""
     instance = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=members)
     agents = instance.get("agents", [])
-    # Refuses other keys: they could restrict the plans, and the bound would be one of another problem.
+    # Refuses other keys, because they could change the problem, and the bound would be that of a different problem.
     expect(instance.keys() == {"map", "agents", "tasks"} and agents and not instance["tasks"] and
            all(agent.keys() == {"id", "start", "goal"} for agent in agents), "expected classical MAPF")
     rows = (path.parent / instance["map"]).read_text(encoding="utf-8").split("\n")[4:]
@@ -62,7 +62,7 @@ def read_instance(path):
 
 
 def distances(links, goal):
-    """Returns {place: steps to the goal} for the places that can reach it."""
+    """Returns {place: steps to the goal} for the places from which the goal is reachable."""
     found, queue = {goal: 0}, [goal]
     for place in queue:
         for near in links[place]:
@@ -73,8 +73,8 @@ def distances(links, goal):
 
 
 def least_cost(links, to_go, start, goal, constraints):
-    """Computes c(A, D) by A* over places and times. Returns None if there is no path."""
-    last = max((d[-1] for d in constraints), default=0)  # all later times are equivalent
+    """Computes c(A, D) of docs/proof.md by A* over places and times. Returns None if there is no path."""
+    last = max((d[-1] for d in constraints), default=0)  # all times after `last` are equivalent
     bars, moves = ({d[1:] for d in constraints if d[0] == kind} for kind in ("bar", "move"))
     rest_from = 1 + max((time for place, time in bars if place == goal), default=-1)
     waiting = [(to_go[start], 0, start)] if start in to_go and (start, 0) not in bars else []
@@ -97,7 +97,7 @@ def number(word):
 
 
 def read_constraint(words, agents):
-    """Reads (agent, ("bar", P, T)) or (agent, ("move", P, Q, T)), each for one time."""
+    """Reads a constraint for a single time as (agent, ("bar", P, T)) or (agent, ("move", P, Q, T))."""
     agent, kind, *numbers = words
     *places, begin, end = map(number, numbers)
     expect((kind, len(places), len(set(places))) in (("bar", 1, 1), ("move", 2, 2)),
@@ -107,7 +107,7 @@ def read_constraint(words, agents):
 
 
 def read_split(line, agents):
-    """Reads the two constraints of a split, at least one of which every plan satisfies."""
+    """Reads a split. Ensures that every plan satisfies at least one of its two constraints, and returns them."""
     words = [side.split(" ") for side in line.removeprefix("split ").split(" | ")]
     expect(line.startswith("split ") and len(words) == 2, "this rule is not supported here")
     (a, (kind, *one)), (b, (other, *two)) = (read_constraint(side, agents) for side in words)
@@ -117,7 +117,7 @@ def read_split(line, agents):
 
 
 def check(instance, lines):
-    """Checks a certificate; returns (proven lower bound, whether following is allowed)."""
+    """Checks a certificate and returns (proven lower bound, whether following is allowed)."""
     links, starts, goals, instance_sum = read_instance(instance)
     to_go = [distances(links, goal) for goal in goals]
     head = [next(lines) for _ in range(4)]
@@ -126,7 +126,7 @@ def check(instance, lines):
     expect(head[1] == f"instance {instance_sum}", "the certificate is for another instance")
     bound = float("inf") if head[3] == "theorem inf" else number(head[3].removeprefix("theorem "))
     constraints = [[] for _ in starts]
-    splits = []  # (agent of the active constraint, second constraint if it is still to come)
+    splits = []  # (agent of the constraint in force, second constraint unless its branch has started)
     known = {}
 
     def cost(agent):
@@ -156,7 +156,8 @@ def check(instance, lines):
 
 
 def lines_of(path):
-    """Yields the lines of a certificate one at a time, because few compressed bytes may hold any number of lines."""
+    """Yields the lines of a certificate one at a time, because a few compressed bytes can contain any number of lines.
+    """
     with path.open("rb") as file:
         compressed = file.read(4) == b"\x28\xb5\x2f\xfd"
     source = subprocess.Popen(["zstd", "-dcq", "--", path], stdout=subprocess.PIPE).stdout if compressed else path.open("rb")
@@ -175,13 +176,13 @@ def main(instance, proof):
 
 
 def run(instance, proof):
-    """Runs main() within the memory limit."""
+    """Calls main() with a limit of MEMORY bytes, and refuses the certificate if it needs more."""
     _, most = resource.getrlimit(resource.RLIMIT_DATA)
     resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, most))
     try:
         main(instance, proof)
     except MemoryError:
-        resource.setrlimit(resource.RLIMIT_DATA, (most, most))  # for the message
+        resource.setrlimit(resource.RLIMIT_DATA, (most, most))  # so that the message can be printed
         sys.exit(f"refused: needs more than {MEMORY / 1e9:.1f} GB of memory")
 
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// *Claim:* each rank receives a learned bound at most once. *Proof.* A rank of reach n is
-// responsible for n consecutive ranks, beginning with itself. With h = ceil(n / 2), it sends the
-// bound with reach n - h to the rank at distance h, and its own reach becomes h. These two ranges
-// partition the n ranks, so no rank is in both. The recursion ends at reach 1.
+// *Claim:* each rank receives a learned bound at most once. *Proof.* A rank with reach n is
+// responsible for n consecutive ranks, starting with itself. With h = ceil(n / 2), it sends the
+// bound, with reach n - h, to the rank at distance h, and its own reach becomes h. The two new
+// ranges partition the n ranks, so no rank is in both. The recursion ends at reach 1.
 #include "mpi/bound_broadcast.h"
 
 #include <algorithm>
@@ -13,15 +13,15 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kPause_s = 1e-3;       // between two sends, at the beginning; see pause_at()
-constexpr double kMaxBurstPauses = 10;  // pauses without sending whose bytes may be sent at once
+constexpr double kPause_s = 1e-3;  // minimum time between two sends, at the start; see pause_at()
+constexpr double kMaxBurstPauses = 10;  // bytes can be saved up during this number of pauses
 constexpr std::size_t kMaxWaiting = 1000;
-// Bytes. A bound longer than the allowance of one call would block all others.
+// Maximum length of a bound, in bytes. A bound longer than the allowance of one call would block
+// all others.
 constexpr std::size_t kMaxBoundBytes = 1000;
-constexpr double kMinBurstBytes =
-    16e3;                          // bytes that may be saved up, for all log2(ranks) receivers
-constexpr double kFullRate_s = 1;  // after this time the rate falls as 1 / time
-constexpr std::size_t kBytesOfSize = 1;  // bytes of the length field of a packed bound, about
+constexpr double kMinBurstBytes = 16e3;  // at least these bytes can be saved up, for all receivers
+constexpr double kFullRate_s = 1;        // after this time the rate falls as 1 / time
+constexpr std::size_t kBytesOfSize = 1;  // approximate bytes of the length field of a packed bound
 
 }  // namespace
 
@@ -56,7 +56,7 @@ std::vector<BoundBroadcast::OutgoingMessage> BoundBroadcast::due(double now) {
   last_ = now;
   next_ = now + pause;
   auto left = static_cast<double>(waiting_.size());
-  // The largest reach first: it has the longest path to go.
+  // The largest reach first, because its bounds have the longest way to go.
   for (auto at = waiting_.rbegin(); at != waiting_.rend(); ++at, --left) {
     const int reach = at->first;
     const int to = (rank_ + (reach + 1) / 2) % ranks_;
@@ -67,8 +67,9 @@ std::vector<BoundBroadcast::OutgoingMessage> BoundBroadcast::due(double now) {
   return parcels;
 }
 
-// At the beginning all ranks are at the same nodes. Later each rank is in its own part of the tree,
-// so its bounds are of less use to others; and the caches are finite.
+// The rate falls with time. At the start all ranks search near the same nodes. Later each rank is
+// in its own part of the tree, so its bounds are less useful to other ranks; moreover, caches are
+// finite.
 double BoundBroadcast::rate_at(double now) const {
   return rate_ * kFullRate_s / std::max(now, kFullRate_s);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Broadcast of learned bounds from each rank to all others.
+// Broadcast of learned bounds from each rank to all other ranks.
 #pragma once
 
 #include <limits>
@@ -13,12 +13,12 @@
 
 namespace grove::detail {
 
-// Sends learned bounds of this rank, and forwards those of other ranks, along a binomial tree. Each
-// learned bound reaches each rank at most once, over at most ceil(log2(ranks)) hops. A rank that is
-// responsible for the next n ranks sends to the middle one, which becomes responsible for the
-// further half, and continues with the nearer half. Bounds of the highest utility are sent first,
-// at a limited rate; a bound that waits too long is dropped. So the search must not depend on any
-// delivery. One thread at a time.
+// Sends learned bounds of this rank, and forwards learned bounds from other ranks, along a binomial
+// tree. Each learned bound reaches each rank at most once, over at most ceil(log2(ranks)) hops. A
+// rank that is responsible for n consecutive ranks sends to the middle one, which becomes
+// responsible for the farther half, and continues with the nearer half. Bounds of the highest
+// utility are sent first, at a limited rate. If too many bounds wait, the least useful ones are
+// dropped, so the search must not depend on any delivery. One thread at a time.
 class BoundBroadcast {
  public:
   struct OutgoingMessage {
@@ -26,21 +26,21 @@ class BoundBroadcast {
     message::LearnedBounds facts;
   };
 
-  // `rate`: bytes per second that this rank may send in the first second. It falls as 1 / time
-  // after that. 0: nothing is sent.
+  // `rate`: bytes per second that this rank may send in the first second; later the rate falls as 1
+  // / time. 0: nothing is sent.
   BoundBroadcast(int rank, int ranks, double rate) : rank_(rank), ranks_(ranks), rate_(rate) {}
 
   bool is_on() const { return ranks_ > 1 && rate_ > 0; }
 
   // Adds a bound learned on this rank. A bound of more than 1,000 bytes is not sent.
   void add(const LearnedBound& fact);
-  // Adds a packed bound of this utility, to be forwarded to the next `reach` - 1 ranks.
+  // Adds a packed bound, to be forwarded to the next `reach` - 1 ranks.
   void add(double utility, std::string fact, int reach);
 
-  // The messages to send now; `now` in seconds since the beginning.
+  // Returns the messages to send now. `now`: seconds since the start of the run.
   std::vector<OutgoingMessage> due(double now);
-  // When due() may return messages, in seconds since the beginning. Infinity: not before the next
-  // add().
+  // The earliest time, in seconds since the start of the run, at which due() can return messages.
+  // Infinity: not before the next add().
   double next_send_time() const {
     return waiting_.empty() ? std::numeric_limits<double>::infinity() : next_;
   }
@@ -62,8 +62,8 @@ class BoundBroadcast {
   const double rate_;
   double next_ = 0;
   double last_ = 0;
-  double allowance_ = 0;            // bytes
-  std::map<int, Waiting> waiting_;  // by the reach of the sender; no heap is empty
+  double allowance_ = 0;            // bytes that may be sent now
+  std::map<int, Waiting> waiting_;  // by the reach of this rank when it sends; no heap is empty
 };
 
 }  // namespace grove::detail

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Protocol of the distributed search, and why its lower bound is valid. The ranks hold the nodes of
-// one search and transfer them to each other. The coordinator holds the global bounds. With many
-// ranks, sub-coordinators (hierarchy.h) stand between the ranks and the coordinator: they merge
-// messages on the way up and spread messages on the way down. Messages from one rank to another
-// arrive in the order in which they were sent. All other messages may arrive in any order.
+// Protocol of the distributed search, and proof that its lower bound is valid. The ranks hold the
+// nodes of one search and transfer them to each other. The coordinator holds the global bounds.
+// With many ranks, sub-coordinators (hierarchy.h) stand between the ranks and the coordinator; they
+// merge messages on the way up and distribute messages on the way down. Messages with the same
+// sender and receiver arrive in sending order. No other order is guaranteed.
 //
 // *Invariant (lower bound).* At every moment, each node that may still lead to a plan is covered by
 // the latest status that the coordinator holds of some child, or by nodes that it has assigned to a
@@ -14,9 +14,9 @@
 //   the plans posted before a status no later than the status. So the coordinator knows the plan
 //   when it learns that the node is gone.
 // - *Custody.* A rank that transfers nodes keeps them taken. The receiver pushes them and then
-//   reports this in a status. When the coordinator has processed that status, which covers them, it
-//   releases the sender, whose later statuses omit them. (The minimum of per-rank bounds sampled
-//   while nodes are in transit would miss those nodes.)
+//   reports this in a status, which covers them. When the coordinator has processed that status, it
+//   releases the sender, whose later statuses omit the nodes. (Without custody, the minimum of the
+//   bounds of all ranks would miss nodes in transit.)
 // - *Assigned nodes* are covered by the coordinator until the status that reports them pushed.
 // - *Nodes never pushed* were pruned by an incumbent that GlobalBounds has checked.
 //
@@ -28,11 +28,11 @@
 // covers every node of its group, and every node that a rank of its group has in custody. *Proof.*
 // For level 1 this is the argument above: a node that comes from another group or goes there is in
 // the custody of some rank, or covered by a status already processed. For a higher level:
-// - A status of a sub-coordinator is its own minimum at one moment, so it covers the nodes that its
-//   group held then. A node that its group holds later comes from one of three sources: a node
-//   covered then; nodes assigned to the group since, which the coordinator above covers until a
-//   status reports that they have arrived; or another group, where a rank still has the node in
-//   custody.
+// - A status from a sub-coordinator is its own minimum at one time, so it covers the nodes that its
+//   group held at that time. A node that its group holds later comes from one of three sources:
+//   from a node that the status covers; from nodes assigned to the group since, which the
+//   coordinator above covers until a status reports that they have arrived; or from another group,
+//   in which a rank still has the node in custody.
 // - The lowest coordinator above both the sender and the receiver of a batch releases the batch. It
 //   does so when it has processed a status of the receiver's group that reports the batch as
 //   received. That status covers the batch, because each coordinator on the way up forwards the
@@ -40,40 +40,42 @@
 //   the sender. So this coordinator, and those above it, process the first status without the batch
 //   from the sender's group after the status that covers the batch on the receiver's side. Statuses
 //   sent upwards in between cover both.
-// - Plans travel up along the same path. Each is forwarded at once, and one is dropped only if an
-//   incumbent that GlobalBounds has checked is as good. So a plan still arrives before the status
-//   without the node that led to it.
+// - Plans travel up along the same path. A sub-coordinator forwards each plan at once, unless an
+//   incumbent that GlobalBounds has checked is at least as good. Therefore a plan still arrives
+//   before the first status without the node that led to it.
 //
-// *Termination.* By the same argument no node is live if no latest status reports a live node and
-// no assigned nodes are in transit. There is no other test, and no batch can be in transit then.
+// *Termination.* By the same argument, no node is live and no batch is in transit if no latest
+// status reports a live node and no assigned nodes are in transit. No other termination test is
+// needed.
 //
-// *Restart*, after nodes were evicted because memory was short: no node is live, all ranks forget
-// their evicted bounds, and the roots are pushed again. A rank may receive nodes from a rank that
-// has already restarted, before it receives Restart itself. Therefore a batch carries its epoch,
-// and a batch of a later epoch is deferred. Until the status of a rank has the new epoch, its nodes
-// are unknown. The epoch of a group is the lowest epoch of its ranks.
+// *Restart.* If no node is live but nodes were evicted because memory was short, all ranks forget
+// their evicted bounds, and the roots are pushed again. A rank can receive nodes from a rank that
+// has already restarted before it receives Restart itself. Therefore a batch carries its epoch, and
+// a rank defers a batch of a later epoch. Until a rank's status has the new epoch, its nodes count
+// as unknown. The epoch of a group is the lowest epoch of its ranks.
 //
 // *Learned bounds* are sent from rank to rank (bound_broadcast.h). A learned bound is never a node
 // and is valid on every rank (search/learned_bounds.cpp). No rank waits for one or replies to one.
 //
 // *Remote pricing.* Rank 0 computes the Lagrangian bound in addition to searching its nodes. It
-// requests subproblem values under its multipliers from other ranks. Each request is for one part
-// of the agents, and a rank gets the next request when it has replied. A reply that is late or has
-// other multipliers is dropped (lagrangian_bound.cpp), and rank 0 computes missing values itself.
-// So no part of this protocol waits for subproblem values, and no bound depends on their order of
-// arrival. Rank 0 reports the bounds that it proves by them in its statuses.
+// requests subproblem values under its multipliers from other ranks. Each request is for some of
+// the agents; a rank gets the next request after it has replied. Rank 0 drops a reply that is late
+// or has other multipliers (lagrangian_bound.cpp), and computes missing values itself. Therefore no
+// part of this protocol waits for subproblem values, and no bound depends on their order of
+// arrival. Rank 0 reports the bounds that it proves by these values in its statuses.
 //
-// *Unresponsive ranks.* The latest status of such a rank keeps covering its nodes. So if a limit
-// was reached and no message has arrived for long since then, the coordinator concludes without
-// these ranks. A rank whose worker is in a long step sends its statistics repeatedly, as a
-// heartbeat.
+// *Unresponsive ranks.* The latest status of an unresponsive rank still covers its nodes.
+// Therefore, if a limit was reached and no message has arrived for kMaxSilence since then, the
+// coordinator can conclude without the unresponsive ranks. A rank whose worker is in a long step
+// sends its statistics repeatedly, as a heartbeat.
 //
-// *Shutdown.* After Terminate, and after it has handled the messages sent before, a rank sends
-// RankFinished and nothing more. A sub-coordinator does so when all its children have. The
-// coordinator then sends each rank the number of messages that other ranks sent to it directly
-// (batches, pricing requests, pricing replies, learned bounds). A rank waits for all of them, so
-// that no message is left in transit. Messages up arrive before RankFinished and messages down
-// arrive before MessageCounts, because they travel along the same paths.
+// *Shutdown.* After Terminate a rank lets its workers end, sends RankFinished, and then sends
+// nothing more. A sub-coordinator sends RankFinished when all its children have sent it. When the
+// coordinator has received it from all children, it sends each rank the number of messages that
+// other ranks sent to it directly (batches, pricing requests, pricing replies, learned bounds). The
+// rank waits for all of these, so that no message is left in transit. Messages on the way up arrive
+// before RankFinished, and messages on the way down before MessageCounts, because they travel along
+// the same paths.
 #include "mpi/coordinator.h"
 
 #include <algorithm>
@@ -90,10 +92,11 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kNodesPerAssignment = 200;  // per message
-// Longest silence after a limit. Ranks poll their limits every few milliseconds and the network at
-// least every four milliseconds. The run concludes without silent ranks no earlier than twice this
-// time after the limit, so a worker in a long step has that long, with a checkpoint or without.
+constexpr std::size_t kNodesPerAssignment = 200;  // nodes per AssignNodes message
+// Silence after a limit from which on ranks count as unresponsive. Ranks poll their limits every
+// few milliseconds, and the network at least every four milliseconds. The run concludes without
+// unresponsive ranks no earlier than twice this time after the limit, so a worker in a long step
+// has that much time, whether or not a checkpoint is written.
 constexpr auto kMaxSilence = std::chrono::milliseconds(700);
 
 }  // namespace
@@ -115,7 +118,7 @@ Coordinator::Coordinator(const Problem& problem, const SolveOptions& options, co
   run_.run_events().set_statistics_source([this] { return statistics(); });
 }
 
-// The observer comes first: it may write the plan to disk.
+// Calls the observer before the broadcast, because the observer can write the plan to disk.
 void Coordinator::Announcer::on_incumbent(const Plan& plan, PlanSource source,
                                           const Progress& progress) {
   ForwardingObserver::on_incumbent(plan, source, progress);
@@ -129,7 +132,7 @@ void Coordinator::begin() {
     run_.begin();
 }
 
-// Assigns the nodes to the children as they are read.
+// Restores the run, and assigns the nodes to the children while it reads them.
 void Coordinator::restore(CheckpointReader& checkpoint) {
   const auto roots = run_.restore(checkpoint.header());
   restored_ = roots.has_value();
@@ -169,7 +172,7 @@ void Coordinator::handle(int from, message::Message&& message) {
                  },
                  [&](message::RankFinished& finished) { leave(finished); }, unexpected},
       message);
-  last_message_at_ = limits_.now();  // not before: writing a checkpoint takes time
+  last_message_at_ = limits_.now();  // after the handling, because writing a checkpoint takes time
 }
 
 void Coordinator::heard(int child, message::Status status) {
@@ -184,15 +187,15 @@ void Coordinator::heard(int child, message::Status status) {
   nodes_.update(child, std::move(status));
   run_.shared_bounds().nodes_changed();
   run_.run_events().worked();
-  if (ending_) return;  // a batch sent after a RankFinished would be left in transit
+  if (ending_) return;  // a batch ordered now could be left in transit at the end
   run_.trees().instantiate_due_tree();
   while (const auto transfer = load_balancer_.next())
     children_.send(transfer->from,
                    message::SendNodes{transfer->to, transfer->nodes, transfer->to_idle});
 }
 
-// Writes one checkpoint at a time, and the last one when the search is over, before Terminate is
-// sent.
+// Starts checkpoints, one at a time. The last one is written when the search is over, before
+// Terminate is sent.
 void Coordinator::update_checkpoints() {
   if (gathering_ && gathering_->is_done()) gathering_.reset();
   if (gathering_ || options_.checkpoints.directory.empty() || !restored_) return;
@@ -210,7 +213,7 @@ void Coordinator::step() {
     ending_ = true;
     children_.broadcast(message::Terminate{});
   } else if (!nodes_.any()) {
-    run_.trees().refill_nodes();  // a tree may have no node: then no rank has a reason to report
+    run_.trees().refill_nodes();  // a pruned tree has no node, so no rank has a reason to report
   } else if (run_.trees().claim_preparation()) {
     run_.trees().prepare_tree();
   }
@@ -222,9 +225,9 @@ void Coordinator::leave(const message::RankFinished& message) {
     children_.send_message_counts({finished_.messages});
 }
 
-// The last report of an unresponsive rank stays valid. Silence before the limit does not count:
-// there may have been nothing to report. This rank is never counted, because its worker may be in a
-// long step.
+// The last status of an unresponsive rank stays valid. Silence before the limit does not count,
+// because possibly there was nothing to report. This rank is never counted, because its worker can
+// be in a long step.
 std::int64_t Coordinator::check_unresponsive_ranks() {
   if (ended() || !limits_.stop_requested()) return 0;
   const Clock::time_point now = limits_.now();
@@ -249,8 +252,8 @@ Solution Coordinator::conclude() {
   return solution;
 }
 
-// The final statistics of the ranks that have finished, and the latest statistics of the others. A
-// simulated run that reaches a limit ends without RankFinished.
+// Returns the final statistics of the ranks that have finished and the latest statistics of the
+// others. (A simulated run that reaches a limit ends without RankFinished.)
 RunStatistics Coordinator::received_statistics() const {
   RunStatistics all = finished_.statistics;
   for (const auto& [rank, statistics] : rank_statistics_)

@@ -18,41 +18,41 @@
 
 namespace grove::detail {
 
-// Holds the global bounds, checks plans, distributes trees and nodes, keeps ranks at work and ends
-// the run. Lives on rank 0 and uses that rank's transport. The protocol and the proof of the lower
-// bound: coordinator.cpp. One thread at a time.
+// Holds the global bounds, checks plans, distributes trees and nodes, balances the load and ends
+// the run. Runs on rank 0 and uses that rank's transport. The protocol and the proof of the lower
+// bound are at the head of coordinator.cpp. One thread at a time.
 class Coordinator {
  public:
   // All arguments must outlive this.
   Coordinator(const Problem& problem, const SolveOptions& options, const Limits& limits,
               RunObserver& observer, Transport& transport);
 
-  // Call this before any other function. Posts the start plan and instantiates the first tree, or
-  // restores a checkpoint. Throws what reading the checkpoint throws.
+  // Posts the start plan and instantiates the first tree, or restores a checkpoint. Must be called
+  // before any other function. Throws what reading the checkpoint throws.
   void begin();
-  // Handles a message from a child. Throws std::invalid_argument for a message that a child cannot
-  // send, and what GlobalBounds::post() throws.
+  // Handles a message from a child. Throws std::invalid_argument for a type of message that no
+  // child sends, and what GlobalBounds::post() throws.
   void handle(int from, message::Message&& message);
-  // Takes due checkpoints and refills the nodes, or ends the run if it is over. Call this
-  // repeatedly.
+  // Takes a due checkpoint and supplies nodes if none is live, or ends the run if it is over. Must
+  // be called repeatedly.
   void step();
 
   Cost lower_bound() { return run_.shared_bounds().lower_bound(); }
-  // Has every child sent RankFinished?
+  // True if every child has sent RankFinished.
   bool ended() const { return finished_children_ == children_.count(); }
-  // Tests for unresponsive ranks. It acts only if a limit was reached and no message has arrived
-  // for too long since then. If a checkpoint is in progress, it aborts the checkpoint and returns
-  // 0. Otherwise it returns the number of ranks, except this one, for which no RankFinished has
-  // arrived (from the rank or from its sub-coordinator). Returns 0 if no rank is considered
-  // unresponsive.
+  // Returns the number of unresponsive ranks. A rank other than this one is unresponsive if a limit
+  // was reached, no message has arrived at the coordinator for too long since then, and no
+  // RankFinished has arrived for the rank (from the rank itself or from its sub-coordinator). If a
+  // checkpoint is in progress at that time, aborts the checkpoint and returns 0.
   std::int64_t check_unresponsive_ranks();
-  // The solution. Call this once ended(), or to conclude without the unresponsive ranks.
+  // Returns the solution. Must be called only once ended() is true, or to conclude without the
+  // unresponsive ranks.
   Solution conclude();
 
  private:
   using Clock = Limits::Clock;
 
-  // Forwards events to the observer and broadcasts each new incumbent to all ranks.
+  // Forwards events to the observer, and broadcasts each new incumbent to all ranks.
   class Announcer : public ForwardingObserver {
    public:
     Announcer(RunObserver& observer, ChildLinks& children)
@@ -77,17 +77,17 @@ class Coordinator {
   const Hierarchy hierarchy_;
   ChildLinks children_;
   Announcer announcer_;
-  NodePool pool_;  // nodes of the roots
+  NodePool pool_;  // memory of the root nodes
   RankNodes nodes_;
   RunState run_;
   LoadBalancer load_balancer_;
 
   CheckpointTimer timer_;
   std::optional<DistributedCheckpoint> gathering_;
-  bool restored_ = true;  // false: a limit was reached before all of the checkpoint was restored
+  bool restored_ = true;  // false: a limit was reached before the checkpoint was fully restored
   bool gathered_at_end_ = false;
   bool ending_ = false;
-  Clock::time_point last_message_at_;  // when the last message of any child was handled
+  Clock::time_point last_message_at_;  // when the last message from a child was handled
   // When check_unresponsive_ranks() first saw that a limit was reached.
   std::optional<Clock::time_point> stopped_at_;
   int finished_children_ = 0;

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The ranks take their snapshots at different moments, while nodes are in transit. *Claim:* no node
-// is missed. *Proof.* SnapshotRequest reaches a rank along the same path as ReleaseCustody and
-// AssignNodes, in order.
-// - *A node that one rank transferred to another.* Either it is still in the sender's custody at
-//   the sender's snapshot. Or the release was sent before SnapshotRequest by the lowest coordinator
-//   above both ranks. By then a status of the receiver that covered the node had arrived there. The
-//   receiver got SnapshotRequest later than that coordinator, so at its snapshot it held the node
-//   or the node's descendants.
+// The ranks take their snapshots at different times, while nodes are in transit. *Claim:* no node
+// is missed. *Proof.* SnapshotRequest, ReleaseCustody and AssignNodes reach a rank along the same
+// path, in sending order.
+// - *A node that one rank transferred to another* is either still in the sender's custody at the
+//   sender's snapshot, or the lowest coordinator above both ranks sent the release before it
+//   forwarded SnapshotRequest. In the second case a status from the receiver that covered the node
+//   had reached that coordinator before. The receiver got SnapshotRequest later than that
+//   coordinator, so at its snapshot it held the node or the node's descendants.
 // - *A node assigned before SnapshotRequest* arrives at the rank before SnapshotRequest, because
 //   each coordinator forwards assigned nodes at once.
 //
-// A node recorded twice does no harm.
+// A node can be recorded twice, which does no harm.
 //
-// The rest is as in engine/local_checkpoints.cpp: the trees are counted before the snapshots, and
-// nodes of later trees are omitted. The incumbent is read when all ranks have taken their snapshots
-// and sent the plans that they had found by then.
+// The rest of the proof is that of engine/local_checkpoints.cpp. The trees are counted before the
+// snapshots, and nodes of later trees are omitted. The incumbent is read after all ranks have taken
+// their snapshots and have sent the plans that they had found before.
 #include "mpi/distributed_checkpoint.h"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ DistributedCheckpoint::DistributedCheckpoint(const Checkpoints& checkpoints, con
   children.broadcast(message::SnapshotRequest{});
 }
 
-// If this checkpoint fails, the previous one stays valid and the run continues.
+// If writing fails, the previous checkpoint stays valid and the run continues.
 template <class Write>
 void DistributedCheckpoint::write(Write what) {
   if (!report_.failure.empty()) return;
@@ -68,8 +68,8 @@ void DistributedCheckpoint::handle(const message::SnapshotTaken& gathered) {
   ask_next();
 }
 
-// Otherwise a rank that has sent its snapshot, or waits for its request, would take rank 0 for
-// unresponsive.
+// Sends a heartbeat if none was sent recently. Otherwise a rank that has sent its snapshot, or
+// waits for SnapshotNext, would consider rank 0 unresponsive.
 void DistributedCheckpoint::send_heartbeat() {
   if (limits_.now() - announced_at_ < kMaxPause) return;
   children_.broadcast(message::Heartbeat{});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One checkpoint in progress of a distributed search.
+// A checkpoint of a distributed search while it is being written.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@
 
 namespace grove::detail {
 
-// All ranks take a snapshot of their nodes while the search continues. Then one rank after the
-// other sends its snapshot. Why no node is missed: distributed_checkpoint.cpp. One thread at a
-// time.
+// All ranks take snapshots of their nodes while the search continues; then one rank after the other
+// sends its snapshot to rank 0, which writes it. The proof that no node is missed is in
+// distributed_checkpoint.cpp. One thread at a time.
 class DistributedCheckpoint {
  public:
   // Requests the snapshots of all ranks, through the children of the top coordinator. All arguments
@@ -35,21 +35,21 @@ class DistributedCheckpoint {
 
   void ask_next();
   void send_heartbeat();
-  // Calls `what`. If it fails, no later call writes anything.
+  // Calls `what`. After a failure later calls do nothing.
   template <class Write>
   void write(Write what);
 
   const Checkpoints& checkpoints_;
-  const Limits& limits_;  // for the clock
+  const Limits& limits_;  // only used for its clock
   RunState& run_;
   Transport& transport_;
   ChildLinks& children_;
   const Clock::time_point begin_ = limits_.now();
-  Clock::time_point announced_at_ = begin_;  // last broadcast to all ranks
-  const std::int64_t trees_;                 // number of trees that count as instantiated
-  int looked_ = 0;                           // children that have taken their snapshot
+  Clock::time_point announced_at_ = begin_;  // time of the last broadcast to all ranks
+  const std::int64_t trees_;  // number of trees that the checkpoint records as instantiated
+  int looked_ = 0;            // number of children that have taken their snapshots
   Cost evicted_bound_ = kInfiniteCost;
-  int asked_ = -1;  // the rank that sends its snapshot
+  int asked_ = -1;  // rank that is sending its snapshot; -1: none yet
   bool done_ = false;
   std::unique_ptr<CheckpointWriter> writer_;  // nullptr before the start and after a failure
   CheckpointReport report_;

@@ -34,9 +34,8 @@ void ChildLinks::send_message_counts(const message::MessageCounts& message_count
 
 namespace {
 
-// Minimum time between two statuses that are not urgent, in seconds at the beginning; see
-// pause_at(). It grows with the number of siblings, because the parent receives from all its
-// children.
+// Minimum time between two statuses that are not urgent, in seconds, at the start; see pause_at().
+// Grows with the number of siblings, because the parent handles the statuses of all its children.
 constexpr double kPause = 2e-3;
 constexpr double kPausePerSibling = 50e-6;
 
@@ -59,8 +58,10 @@ void ParentLink::send(const message::Message& message) {
   transport_.send(to_.rank, message::bytes_of(message, to_.level));
 }
 
-// A surplus is urgent if half of the open nodes, about what the rank can give away, has more than
-// doubled since the last report: while few ranks have nodes, the others wait for it.
+// A status is urgent if any field changed on which other ranks or the global bounds depend. A
+// larger surplus is urgent only if half of the open nodes, about what the rank can give away, has
+// more than doubled since the last report, because other ranks wait for nodes while few ranks have
+// any.
 bool ParentLink::is_urgent(const message::Status& status) const {
   const bool has_more = !status.surplus.empty() && status.open / 2 > 2 * (said_.open / 2);
   return has_more || !status.taken.empty() || status.entrusted != said_.entrusted ||

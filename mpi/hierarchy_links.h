@@ -12,24 +12,25 @@
 
 namespace grove::detail {
 
-// From a coordinator to its children. These are numbered from 0: ranks, or coordinators of the
-// level below. One thread at a time.
+// Links from a coordinator to its children, which are ranks or coordinators of the level below,
+// numbered from 0. One thread at a time.
 class ChildLinks {
  public:
-  // Links of the coordinator of `level` on the transport's rank. `transport` must outlive this.
+  // Links of the level-`level` coordinator on the transport's rank. `transport` must outlive this.
   ChildLinks(Transport& transport, const Hierarchy& hierarchy, int level)
       : transport_(transport), hierarchy_(hierarchy), post_{transport.rank(), level} {}
 
   int count() const { return hierarchy_.children(post_); }
-  // The child that is `rank` or is above it. `rank` must be below this coordinator.
+  // The number of the child that is `rank` or has `rank` below it. `rank` must be below this
+  // coordinator.
   int with(int rank) const { return hierarchy_.child_with(post_, rank); }
-  // For each child, the ranks that it is or that are below it.
+  // By child: the child's own rank, or the ranks below it.
   std::vector<std::vector<int>> ranks() const;
   bool include(int rank) const { return hierarchy_.is_below(post_, rank); }
 
   void send(int child, const message::Message& message);
   void broadcast(const message::Message& message);
-  // Sends each child the counts of the ranks that it is or that are below it.
+  // Sends each child the counts for its own rank or the ranks below it.
   void send_message_counts(const message::MessageCounts& message_counts);
 
  private:
@@ -38,23 +39,25 @@ class ChildLinks {
   const Endpoint post_;
 };
 
-// From a rank or sub-coordinator to its parent: throttled status reports. One thread at a time.
+// Link from a rank or sub-coordinator to its parent, with throttled status reports. One thread at a
+// time.
 class ParentLink {
  public:
-  // Link of the rank or sub-coordinator at `post`, which is not the top. The parent takes `first`
-  // as the status already reported. `transport` must outlive this.
+  // Link of the rank or sub-coordinator at `post`, which must not be the top. `first` is the status
+  // that the parent assumes before the first report. `transport` must outlive this.
   ParentLink(Transport& transport, const Hierarchy& hierarchy, Endpoint post,
              message::Status first);
 
   // Sends `message` at once.
   void send(const message::Message& message);
-  // Sends `status` if it differs from the last one. An urgent status is sent at once, any other at
-  // a rate that the parent can handle from all its children. `now` in seconds since the beginning.
-  // Returns true if it was sent.
+  // Sends `status` if it differs from the last status sent. An urgent status is sent at once, any
+  // other at a rate that the parent can handle for all its children. `now`: seconds since the start
+  // of the run. Returns true if `status` was sent.
   bool report(message::Status status, double now);
   // Makes the next status urgent, even if it is unchanged.
   void mark_urgent() { urgent_ = true; }
-  // When a withheld status may be sent. Infinity if none is withheld, or after end_reports().
+  // The time at which a withheld status can be sent, in seconds since the start of the run.
+  // Infinity if no status is withheld, and after end_reports().
   double reports_at() const { return reports_at_; }
   // Cancels a withheld status.
   void end_reports() { reports_at_ = std::numeric_limits<double>::infinity(); }

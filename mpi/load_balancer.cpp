@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Load balancing policy.
 //
-// *Idle ranks* come first, whatever the bounds of the surplus: these nodes may have to be expanded,
-// and an idle rank contributes nothing.
+// *Idle ranks* come first. They get nodes whatever the bounds of the nodes, because these may have
+// to be expanded, and an idle rank contributes nothing.
 //
-// *Busy ranks.* A rank whose best node is worse than the surplus of another child receives nodes
-// too, so that all ranks work near the lower bound. With omega = 0 all nodes below the optimum must
-// be expanded in any case. So such a transfer gains little, and a small number of nodes is not
-// worth a message.
+// *Busy ranks.* A rank whose best node is worse than the surplus of another child receives nodes,
+// too, so that all ranks expand nodes near the lower bound. With omega = 0 all nodes below the
+// optimum must be expanded in any case, so such a transfer gains little. Therefore it is made only
+// for at least min_surplus_nodes nodes.
 //
-// *Levels.* Requests of ranks of one child are matched within the child. The remaining requests and
-// surplus are matched here or by the parent.
+// *Levels.* A coordinator matches requests with the surplus of other children only. Requests and
+// surplus within one child are matched by that child, those that remain by the parent.
 #include "mpi/load_balancer.h"
 
 #include <algorithm>
@@ -73,8 +73,8 @@ void LoadBalancer::take(int child, std::int64_t nodes) {
   offer(child, std::move(left));
 }
 
-// Requests are in order of urgency: if no transfer is worthwhile for one, none is for those after
-// it.
+// The requests are sorted by urgency, so if no transfer is worthwhile for a request, none is for
+// the requests after it.
 std::optional<LoadBalancer::Transfer> LoadBalancer::next() {
   for (const auto& [request, child] : wishes_) {
     const auto& [busy, minus_best, to] = request;

@@ -14,34 +14,35 @@
 
 namespace grove::detail {
 
-// Matches ranks that have no node to expand, or only worse nodes than others, with the children of
-// a coordinator that have the largest surplus. It affects only the running time, not the validity
-// of the answer. One thread at a time.
+// Matches ranks that have no node to expand, or only worse nodes than other ranks, with the
+// children of a coordinator that have the best surplus. Its decisions affect only the running time,
+// not the validity of the answer. One thread at a time.
 class LoadBalancer {
  public:
   struct Transfer {
-    int from = 0;            // the child
+    int from = 0;            // the sending child
     int to = 0;              // the receiving rank, which is not below `from`
-    std::int64_t nodes = 0;  // at most
+    std::int64_t nodes = 0;  // maximum number of nodes
     bool to_idle = false;
   };
 
-  // `children`: for each child, the ranks that it is or that are below it. No rank has nodes yet.
+  // `children`, by child: the child's own rank, or the ranks below it. Starts in the state in which
+  // no rank has nodes.
   explicit LoadBalancer(const std::vector<std::vector<int>>& children, const Tuning& tuning = {});
 
-  // Handles a new status of `child`.
+  // Handles a new status from `child`.
   void heard(int child, const message::Status& status);
-  // A transfer to `rank` has arrived.
+  // Records that a transfer to `rank` has arrived.
   void arrived(int rank);
-  // The next transfer to order. A rank with a transfer in transit gets no other. Returns nullopt if
-  // no transfer is worthwhile.
+  // Returns the next transfer to order, or nullopt if no transfer is worthwhile. A rank to which a
+  // transfer is in transit gets no second one.
   std::optional<Transfer> next();
 
-  // The child that has to send `nodes` nodes to a rank below another coordinator: the one with the
-  // best surplus, or child 0 if none has a surplus.
+  // Chooses the child that must send `nodes` nodes to a rank below another coordinator: the child
+  // with the best surplus, or child 0 if no child has a surplus.
   int donor(std::int64_t nodes);
-  // The surplus of all children at their best bounds, and the most urgent work requests: for the
-  // parent, which matches them with those of other children.
+  // The surplus of all children at their best bounds, and their most urgent work requests. The
+  // parent matches them with those of its other children.
   std::vector<message::Surplus> surplus() const;
   std::vector<message::WorkRequest> work_requests() const;
 
@@ -61,7 +62,7 @@ class LoadBalancer {
   const Tuning tuning_;
   std::vector<View> children_;
   std::set<Offer> offers_;
-  std::map<Request, int> wishes_;  // value: the child of the request
+  std::map<Request, int> wishes_;  // value: the child that the request came from
   std::set<int> awaiting_;         // ranks with a transfer in transit
 };
 

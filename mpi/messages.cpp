@@ -25,7 +25,7 @@ void serialize(Archive& archive, LearnedBound& fact) {
 }
 
 // Writes the number without compression. The memory of a process differs from run to run, so with a
-// variable width the messages of a simulation would differ in length.
+// variable width the lengths of messages would differ between equal simulations.
 template <class Archive>
 void at_full_width(Archive& archive, std::int64_t& number) {
   archive(cereal::binary_data(&number, sizeof number));
@@ -195,7 +195,7 @@ void serialize(Archive& archive, Addressed& addressed) {
   addressed.level = level;
 }
 
-// Serializes as an Addressed, without a copy of the message.
+// Has the serialized form of an Addressed, but refers to the message instead of copying it.
 struct AddressedView {
   std::uint8_t level;
   const Message& message;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Messages between the ranks of one distributed search. Values. The protocol is in coordinator.cpp,
-// the tree of coordinators in hierarchy.h.
+// Messages between the ranks of one distributed search; all types are values. The protocol is at
+// the head of coordinator.cpp; the tree of coordinators is in hierarchy.h.
 #pragma once
 
 #include <cereal/types/utility.hpp>
@@ -29,24 +29,25 @@ namespace grove::detail::message {
 struct Surplus {
   Cost bound = kInfiniteCost;
   std::int64_t nodes = 0;
-  // Further nodes, for idle ranks only: the next node of each rank whose worker is at another node.
-  // (Busy ranks would transfer their best nodes to each other for ever.)
+  // Additional nodes that only an idle rank can get: the best open node of each rank whose worker
+  // is expanding a node. (Busy ranks would otherwise transfer their best nodes to each other for
+  // ever.)
   std::int64_t next = 0;
 
   friend bool operator==(const Surplus&, const Surplus&) = default;
 };
 
-// A rank that would expand better nodes if it had some. A node is wanted if it must be expanded
-// before the run can end.
+// Request from a rank for nodes, or for better nodes than it has. A node is wanted if it must be
+// expanded before the run can end.
 struct WorkRequest {
   std::int32_t rank = 0;
-  bool idle = true;           // it has no wanted node
-  Cost best = kInfiniteCost;  // least bound of its wanted open nodes
+  bool idle = true;           // the rank has no wanted node
+  Cost best = kInfiniteCost;  // least bound of the rank's wanted open nodes
 
   friend bool operator==(const WorkRequest&, const WorkRequest&) = default;
 };
 
-// Rank `by` has received `batches` batches of rank `from`, in total.
+// Rank `by` has received `batches` batches from rank `from` so far.
 struct BatchReceived {
   std::int32_t by = 0;
   std::int32_t from = 0;
@@ -56,28 +57,28 @@ struct BatchReceived {
 };
 
 // Status report to the parent, for one rank or for all ranks below a sub-coordinator. Covers the
-// nodes that they hold, the nodes that they have transferred and whose receipt was not confirmed,
-// and the least bound of the nodes that they have evicted.
+// nodes that these ranks hold, the nodes that they have in custody (transferred, but not yet
+// released), and the nodes that they have evicted.
 struct Status {
   Cost bound = kInfiniteCost;
   Cost evicted_bound = kInfiniteCost;
   Cost proven = 0;  // proven outside the tree search; see SharedBounds::prove
   BoundSource proven_by = BoundSource::kJointSearch;
-  bool live = false;  // is any node live?
+  bool live = false;  // true: some node is live
   std::int64_t open = 0;
   std::int64_t expanded = 0;
-  std::int32_t epoch = 0;                  // number of Restart messages that all have handled
-  std::int64_t entrusted = 0;              // number of AssignNodes messages that it has handled
-  StopReason stopped = StopReason::kNone;  // a limit that was reached there
-  std::vector<Surplus> surplus;  // by bound, ascending, from the least bound with a surplus
-  std::vector<WorkRequest> work_requests;  // the most urgent first; not of all ranks below
-  std::vector<BatchReceived> taken;  // new since the last status; from ranks that are not below
+  std::int32_t epoch = 0;      // number of Restart messages that all these ranks have handled
+  std::int64_t entrusted = 0;  // number of AssignNodes messages that the sender has handled
+  StopReason stopped = StopReason::kNone;  // a limit reached on one of these ranks
+  std::vector<Surplus> surplus;            // by bound, ascending
+  std::vector<WorkRequest> work_requests;  // the most urgent ones, in descending urgency
+  std::vector<BatchReceived> taken;  // new since the last status; no `from` is below the sender
 
   friend bool operator==(const Status&, const Status&) = default;
 };
 
-// From rank 0 to a rank that has replied to every earlier request: solve these pricing problems at
-// once.
+// From rank 0 to a rank that has replied to all earlier requests: solve these pricing problems
+// before any other work.
 struct RequestPricing {
   PricingRequest request;
 };
@@ -93,13 +94,13 @@ struct NewPlan {
   PlanSource source{};
 };
 
-// To the parent, periodically: the statistics so far, for observers.
+// To the parent, periodically: the current statistics, for observers.
 struct ProcessStatistics {
   RunStatistics statistics;
 };
 
-// To the parent, after Terminate: the final statistics, and how many messages were sent directly to
-// each rank. The sender sends nothing more to its parent.
+// To the parent, after Terminate: the final statistics, and the number of messages sent directly to
+// each other rank. It is the sender's last message to its parent.
 struct RankFinished {
   RunStatistics statistics;
   std::map<std::int32_t, std::int64_t> messages;
@@ -108,18 +109,18 @@ struct RankFinished {
 // Adds `part` to `sum`.
 void add(const RankFinished& part, RankFinished& sum);
 
-// From rank to rank: nodes, and the group bounds known for them. `nodes` may be empty.
+// From rank to rank: nodes, and the known bounds on groups of agents in them. `nodes` can be empty.
 struct NodeBatch {
   std::int32_t epoch = 0;
   std::vector<NodeRecord> nodes;
   std::vector<GroupBound> findings;
 };
 
-// From rank to rank: learned bounds. The receiver forwards them to the next `reach` - 1 ranks in
-// cyclic order of rank; see bound_broadcast.h.
+// From rank to rank: learned bounds. The receiver is responsible for forwarding them to the next
+// `reach` - 1 ranks, in cyclic order of ranks; see bound_broadcast.h.
 struct LearnedBounds {
   std::int32_t reach = 1;
-  std::vector<std::string> facts;  // packed, see packed(): many ranks only forward them
+  std::vector<std::string> facts;  // packed by packed(), because many ranks only forward them
 };
 
 // To all ranks below: a tree, sent before any of its nodes.
@@ -128,23 +129,23 @@ struct NewTree {
   TreeRecord tree;
 };
 
-// From a coordinator to a child: nodes to search. `evicted_bound`: a lower bound on the nodes that
-// were evicted.
+// From a coordinator to a child: nodes to search. `evicted_bound`: lower bound on the nodes of a
+// restored checkpoint that were evicted earlier.
 struct AssignNodes {
   std::vector<NodeRecord> nodes;
   Cost evicted_bound = kInfiniteCost;
 };
 
-// From a coordinator to a child: one rank of the child sends up to `count` nodes to rank `to`, in
-// one batch. `to_idle`: see Surplus::next.
+// From a coordinator to a child: the child's rank, or one rank below it, must send up to `count`
+// nodes to rank `to`, in one batch. `to_idle`: the nodes counted by Surplus::next may be sent.
 struct SendNodes {
   std::int32_t to = 0;
   std::int64_t count = 0;
   bool to_idle = false;
 };
 
-// To rank `from`, through the coordinators: the first `batches` batches that it sent to rank `to`
-// are covered by the status of that rank.
+// To rank `from`, through the coordinators: a processed status covers the first `batches` batches
+// that it sent to rank `to`, so their custody ends.
 struct ReleaseCustody {
   std::int32_t from = 0;
   std::int32_t to = 0;
@@ -156,8 +157,8 @@ struct Incumbent {
   Plan plan;
 };
 
-// To all ranks below: no node is live on any rank. Each rank forgets its evicted bound, and the
-// roots are assigned again. Every plan that was not pruned costs at least `proven`.
+// To all ranks below: no node is live on any rank, and the roots will be assigned again. Each rank
+// forgets its evicted bound. Every plan that was not pruned costs at least `proven`.
 struct Restart {
   Cost proven = 0;
 };
@@ -165,8 +166,8 @@ struct Restart {
 // To all ranks below: take a snapshot of the nodes, for a checkpoint.
 struct SnapshotRequest {};
 
-// To the parent: all ranks here have taken their snapshot. The plans of nodes that were gone by
-// then have been sent before.
+// To the parent: the sending rank, or every rank below the sender, has taken its snapshot. The
+// plans of nodes completed before the snapshots were sent earlier.
 struct SnapshotTaken {
   Cost evicted_bound = kInfiniteCost;
 };
@@ -180,13 +181,14 @@ struct SnapshotPart {
   bool last = false;
 };
 
-// To all ranks below, while a checkpoint is written: rank 0 is responsive.
+// To all ranks below, while a checkpoint is written: sign that rank 0 is responsive.
 struct Heartbeat {};
 
 // To all ranks below: the run is over; reply with RankFinished.
 struct Terminate {};
 
-// To all ranks below, after their RankFinished: how many messages were sent directly to each rank.
+// To all ranks below, after all ranks have finished: the number of messages that other ranks sent
+// directly to each rank.
 struct MessageCounts {
   std::map<std::int32_t, std::int64_t> messages;
 };
@@ -199,17 +201,17 @@ using Message =
                  SnapshotRequest, SnapshotNext, Heartbeat, Terminate, MessageCounts>;  // down
 
 struct Addressed {
-  int level = 0;  // receiver on the destination rank; see Endpoint
+  int level = 0;  // level of the receiver on its rank; see Endpoint
   Message message;
 };
 
 // Serialized form of a learned bound.
 std::string packed(const LearnedBound& fact);
-// Throws std::invalid_argument if `bytes` is not a learned bound.
+// Inverse of packed(). Throws std::invalid_argument if `bytes` is not a packed learned bound.
 LearnedBound unpacked(std::string_view bytes);
 
 std::string bytes_of(const Message& message, int level);
-// Throws std::invalid_argument if `bytes` is not a message.
+// Inverse of bytes_of(). Throws std::invalid_argument if `bytes` is not a serialized message.
 Addressed message_of(std::string_view bytes);
 
 }  // namespace grove::detail::message

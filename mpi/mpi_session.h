@@ -13,14 +13,14 @@
 
 namespace grove::detail {
 
-// One per process. Only the thread that constructs it may use it and its transports. "Collective"
-// marks what all ranks must call.
+// The MPI session of a process, which has at most one. Only the thread that constructs it may use
+// it and its transports. "Collective" marks functions that all ranks must call.
 class MpiSession {
  public:
-  // Without MPI: rank 0 of 1. Only gather() may be called. For programs that only print their help,
-  // which must work where MPI cannot start.
+  // Session without MPI: rank 0 of 1, on which only gather() may be called. For programs that only
+  // print their help, because this must work where MPI cannot start.
   MpiSession() = default;
-  // Starts MPI. Throws std::runtime_error if MPI does not support threads (MPI_THREAD_FUNNELED).
+  // Initializes MPI. Throws std::runtime_error if MPI does not provide MPI_THREAD_FUNNELED.
   MpiSession(int& argc, char**& argv);
   ~MpiSession();
   MpiSession(const MpiSession&) = delete;
@@ -28,13 +28,13 @@ class MpiSession {
 
   int rank() const { return rank_; }
   int ranks() const { return ranks_; }
-  // Collective. The text `mine` of each rank, by rank.
+  // Collective. Returns the argument `mine` of each rank, by rank.
   std::vector<std::string> gather(const std::string& mine) const;
-  // Collective. A transport among the ranks that pass the same `group`, in the order of their ranks
-  // here.
+  // Collective. Returns a transport among the ranks that pass the same `group`, numbered in the
+  // order of their ranks here.
   std::unique_ptr<Transport> connect(int group = 0) const;
-  // Collective, with the same arguments. Memory shared by the ranks of one host; see
-  // MpiSharedMemory.
+  // Collective, with the same arguments on all ranks. Returns memory shared by the ranks of one
+  // host; see MpiSharedMemory.
   std::unique_ptr<SharedMemory> share(std::size_t bytes, std::size_t zero_bytes) const;
   // Ends the processes of all ranks.
   [[noreturn]] void abort(int exit_code) const;

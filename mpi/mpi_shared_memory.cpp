@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// *Space.* Open MPI keeps windows in files of /dev/shm. If there is too little space, it fails on
-// the rank that creates the file, and the other ranks wait for that rank for ever. So the ranks
-// check the free space first.
+// *Space.* Open MPI keeps shared-memory windows in files in /dev/shm. If there is too little space,
+// the rank that creates the file fails, and the other ranks wait for it for ever. Therefore the
+// ranks check the free space first.
 //
-// *Alignment.* A window begins behind Open MPI's own data, at any offset (in Open MPI 4.1 at 8
-// beyond a multiple of 64). The offset within a page is the same in all processes. So a few bytes
-// more are allocated, and the memory begins at the next aligned address.
+// *Alignment.* A window starts behind Open MPI's own data, at any offset (in Open MPI 4.1 at 8
+// bytes after a multiple of 64). The offset within a page is the same in all processes. Therefore
+// kAlignment - 1 more bytes are allocated, and the shared memory starts at the next aligned
+// address.
 #include "mpi/mpi_shared_memory.h"
 
 #include <sys/statvfs.h>
@@ -21,10 +22,11 @@ namespace {
 
 constexpr const char* kFolder = "/dev/shm";
 
-// True if /dev/shm has space for `bytes` bytes and a tenth more, since MPI has other files there.
+// True if /dev/shm has space for `bytes` bytes and a tenth more, because MPI has other files there,
+// too.
 bool has_room(std::size_t bytes) {
   struct statvfs folder = {};
-  if (::statvfs(kFolder, &folder) != 0) return true;  // then MPI uses another directory
+  if (::statvfs(kFolder, &folder) != 0) return true;  // MPI then uses another directory
   return static_cast<double>(folder.f_bavail) * static_cast<double>(folder.f_frsize) >
          1.1 * static_cast<double>(bytes);
 }
@@ -54,7 +56,8 @@ bool MpiSharedMemory::all_on_host(bool mine) const {
   return all == 1;
 }
 
-// Pages of the file that are never touched take no memory.
+// Allocates a few bytes too many, which costs nothing: pages of the file that are never touched
+// take no memory.
 void MpiSharedMemory::allocate(std::size_t bytes, std::size_t zero_bytes) {
   if (!all_on_host(has_room(bytes))) {
     why_not_ = std::string("there is too little memory in ") + kFolder;

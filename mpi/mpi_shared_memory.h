@@ -12,18 +12,18 @@ namespace grove::detail {
 
 class MpiSharedMemory : public SharedMemory {
  public:
-  // Collective over `communicator`, with the same arguments. Allocates `bytes` bytes for the ranks
-  // of each host; the first `zero_bytes` of them are zero. No memory is allocated if `bytes` is 0
-  // or a rank is the only one on its host. Construction and destruction: only the thread that
-  // initialized MPI.
+  // Collective over `communicator`, with the same arguments on all ranks. Allocates `bytes` bytes
+  // for the ranks of each host; the first `zero_bytes` of them are zero. Allocates nothing if
+  // `bytes` is 0, or on a host with a single rank. Only the thread that initialized MPI may
+  // construct and destroy it.
   MpiSharedMemory(MPI_Comm communicator, std::size_t bytes, std::size_t zero_bytes);
-  // During stack unwinding the memory is not freed before the process ends, because the other ranks
-  // may not take part.
+  // Collective over the ranks of the host. During stack unwinding it does not free the memory,
+  // because the other ranks may not take part.
   ~MpiSharedMemory() override;
 
  private:
   void allocate(std::size_t bytes, std::size_t zero_bytes);
-  // Collective over the ranks of the host: true if `mine` is true on all of them.
+  // Collective over the ranks of the host. Returns true if `mine` is true on all of them.
   bool all_on_host(bool mine) const;
 
   MPI_Comm host_ = MPI_COMM_NULL;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All messages have one tag on one communicator, so MPI keeps the order between each two ranks (MPI
-// 4.0, section 3.5). Errors end the job through MPI's own error handler, which names the rank.
+// All messages have the same tag on one communicator, so MPI keeps the order between any two ranks
+// (MPI 4.0, section 3.5). On errors MPI's own error handler names the rank and ends the job.
 #include "mpi/mpi_transport.h"
 
 #include <exception>
@@ -22,8 +22,8 @@ MpiTransport::MpiTransport(MPI_Comm communicator) {
   MPI_Comm_size(communicator_, &ranks_);
 }
 
-// During stack unwinding other ranks may be unresponsive or not get here. Then nothing is waited
-// for, and the buffers of unfinished sends stay with MPI.
+// During stack unwinding other ranks are possibly unresponsive or do not get here. The destructor
+// then waits for nothing, and leaks the buffers of unfinished sends, because MPI still uses them.
 MpiTransport::~MpiTransport() {
   if (std::uncaught_exceptions() > 0) {
     static_cast<void>(std::make_unique<std::list<Sending>>(std::move(sending_)).release());
@@ -56,7 +56,7 @@ std::optional<ReceivedMessage> MpiTransport::receive() {
   return received;
 }
 
-// Tests the oldest sends first, which usually complete first.
+// Frees the buffers of completed sends, oldest first, up to the first send in progress.
 void MpiTransport::forget_sent() {
   while (!sending_.empty()) {
     int done = 0;

@@ -11,13 +11,13 @@
 
 namespace grove::detail {
 
-// Uses its own communicator, a duplicate of the one given, so that it receives no other messages.
-// Only the thread that initialized MPI may use it. Construction and destruction are collective, and
-// all messages must have been received before the destruction.
+// Uses a duplicate of the given communicator, so that it receives no other messages. Construction
+// and destruction are collective; all messages must have been received before the destruction. Only
+// the thread that initialized MPI may use it.
 class MpiTransport : public Transport {
  public:
   explicit MpiTransport(MPI_Comm communicator);
-  // During stack unwinding the communicator is not freed before the process ends.
+  // During stack unwinding it does not free the communicator.
   ~MpiTransport() override;
 
   int rank() const override { return rank_; }

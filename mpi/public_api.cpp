@@ -30,7 +30,7 @@ void require_mpi() {
         "MPI is not initialised for threads; expected MPI_Init_thread with MPI_THREAD_FUNNELED");
 }
 
-// Collective. The minimum of `mine`.
+// Collective. Returns the minimum of `mine` over all ranks.
 std::int64_t least(std::int64_t mine, MPI_Comm communicator) {
   std::int64_t all = 0;
   MPI_Allreduce(&mine, &all, 1, MPI_INT64_T, MPI_MIN, communicator);

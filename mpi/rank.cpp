@@ -13,15 +13,15 @@ namespace grove::detail {
 namespace {
 
 constexpr std::size_t kLevels = 4;
-// The number of nodes expanded with BoundingEffort::kCachedOnly after nodes were sent to an idle
-// rank, and at the beginning. (Simulated, 128 ranks: room-32-32-4 22/40 takes 0.178 s with none,
-// 0.142 s with two and 0.152 s with four; random-32-32-20 with 50 agents takes 0.099, 0.090 and
-// 0.091 s.)
+// Number of nodes expanded with BoundingEffort::kCachedOnly at the start, and after nodes were sent
+// to an idle rank. (Simulated, 128 ranks: room-32-32-4 with 22 agents and 40 tasks takes 0.178 s
+// with 0 nodes, 0.142 s with 2 and 0.152 s with 4; random-32-32-20 with 50 agents takes 0.099,
+// 0.090 and 0.091 s.)
 constexpr std::int64_t kCachedOnlyNodes = 2;
 constexpr std::size_t kNodesInAPart = 500;
 constexpr double kBytesPerMegabyte = 1e6;
 
-// Surplus of a rank with these open nodes; see Frontier::take_for_transfer().
+// Returns the surplus of a rank with these open nodes; see Frontier::take_for_transfer().
 std::vector<message::Surplus> spare_of(const std::vector<Frontier::Level>& levels,
                                        bool keeps_next) {
   std::vector<message::Surplus> surplus;
@@ -34,7 +34,7 @@ std::vector<message::Surplus> spare_of(const std::vector<Frontier::Level>& level
   return surplus;
 }
 
-// Status at the beginning.
+// Status at the start, when the rank is idle.
 message::Status first_status(int rank) {
   message::Status status;
   status.work_requests = {{rank, true, kInfiniteCost}};
@@ -111,8 +111,8 @@ void Rank::handle(int from, message::Message&& message) {
       message);
 }
 
-// True if a tree of the batch has not arrived yet, or if the batch is of a later epoch: then this
-// rank has not yet handled Restart.
+// True if a tree of the batch has not arrived yet, or if the batch is of a later epoch, whose
+// Restart this rank has not handled yet.
 bool Rank::must_defer(const message::NodeBatch& batch) const {
   return batch.epoch > epoch_ || std::ranges::any_of(batch.nodes, [&](const NodeRecord& node) {
            return !roots_.contains(node.tree);
@@ -137,7 +137,7 @@ void Rank::take_over_held() {
   for (auto& [from, batch] : std::exchange(held_, {})) take_over(from, batch);
 }
 
-// The nodes sent stay in custody: taken from the frontier, but not completed.
+// The nodes sent stay in this rank's custody: they are taken from the frontier, but not completed.
 void Rank::send_nodes(const message::SendNodes& order) {
   if (order.to_idle) favor_splitting();
   const bool keeps = !order.to_idle || keeps_next();
@@ -156,17 +156,18 @@ void Rank::send_nodes(const message::SendNodes& order) {
   parent_.mark_urgent();
 }
 
-// Limits the next nodes to cached bounds, because other ranks wait for nodes. Computing the bounds
-// of a node's pairs and groups before it is split may take 10 ms. The first ten generations of
-// nodes would then take most of a short run, in which most ranks have no work. It is better to
-// split first, so that each rank computes these bounds for its own descendants of the node.
+// Restricts the bounding of the next nodes to cached bounds, because other ranks wait for nodes.
+// Computing the bounds of a node's pairs and groups before the node is split can take 10 ms. The
+// first ten generations of nodes would then take most of a short run, and most ranks would be idle
+// during that time. It is better to split first, so that each rank computes these bounds for its
+// own descendants of the node.
 void Rank::favor_splitting() {
   cached_only_until_ = nodes_.expanded + kCachedOnlyNodes;
   search_.set_bounding_effort(BoundingEffort::kCachedOnly);
 }
 
-// False while a worker expands a node: that may take long, and it nearly always yields another
-// node.
+// True if the rank must keep its best open node for its worker. False while a worker expands a
+// node, because that can take long and nearly always yields another node.
 bool Rank::keeps_next() const {
   return static_cast<std::int64_t>(nodes_.frontier.live()) <=
          static_cast<std::int64_t>(nodes_.frontier.open()) + in_custody_;
@@ -200,7 +201,8 @@ void Rank::push(const std::vector<NodeRecord>& records, const std::vector<GroupB
     if (node) nodes_.push(std::move(node));
 }
 
-// The snapshot comes first: a plan is posted before the node that led to it is gone.
+// Takes the snapshot before it sends the plans found: a plan is posted before its node is
+// completed, so the plan of every node missing from the snapshot is sent.
 void Rank::gather() {
   Frontier::Snapshot snapshot = nodes_.frontier.snapshot();
   send_found();
@@ -225,9 +227,8 @@ void Rank::restart(Cost proven) {
   take_over_held();
 }
 
-// Workers run concurrently, so the order of the reads matters. If no node is live, none is evicted
-// any more. Therefore the evicted bound is read after `live`: a restart must know every evicted
-// node.
+// Workers run concurrently, so the order of the reads matters. The evicted bound is read after
+// `live`, because a restart must know every evicted node, and no node is evicted once none is live.
 message::Status Rank::status() const {
   message::Status status;
   const auto live = static_cast<std::int64_t>(nodes_.frontier.live());
@@ -246,24 +247,24 @@ message::Status Rank::status() const {
   status.expanded = nodes_.expanded;
   status.epoch = epoch_;
   status.entrusted = assigned_;
-  limits_.stop_requested();  // possibly the only check of the limits on this rank
+  limits_.stop_requested();  // checks the limits; possibly the only check on this rank
   status.stopped = limits_.reason();
   for (const auto& [rank, peer] : peers_)
     if (peer.news) status.taken.push_back({transport_.rank(), rank, peer.taken});
   return status;
 }
 
-// Must nodes of this bound be expanded before the run can end? Not if the incumbent is within omega
-// of the bound. A rank that has no other nodes expands them nevertheless, but it counts as idle and
-// has no surplus. (When such nodes were transferred, 128 ranks that proved 1 % took 1.7 times as
-// long.)
+// True if nodes with this bound must be expanded before the run can end, that is, if the incumbent
+// is not within omega of the bound. A rank that has only other nodes expands them, but it counts as
+// idle and has no surplus. (When nodes that need not be expanded were transferred, too, 128 ranks
+// with omega = 1 % took 1.7 times as long.)
 bool Rank::is_wanted(Cost bound) const {
   const Cost cutoff = shared_bounds_.cutoff();
   return cutoff == kInfiniteCost || !omega_.accepts(cutoff, bound);
 }
 
-// A node that led to a plan is completed after the plan was posted. So the status is made before
-// the plans are read and is sent after them.
+// A worker completes a node only after it has posted the plan that the node led to. Therefore the
+// status is made before the posted plans are read, and is sent after them.
 void Rank::send_updates(double now) {
   if (ended_) return;
   if (nodes_.expanded >= cached_only_until_) search_.set_bounding_effort(BoundingEffort::kFull);
@@ -294,8 +295,8 @@ void Rank::send_learned_bounds(double now) {
   }
 }
 
-// The bounds are forwarded even if there is no room for them in this rank's cache: other ranks get
-// them only through this one.
+// Forwards the bounds even if this rank's cache has no room for them, because other ranks get them
+// only through this rank.
 void Rank::receive(message::LearnedBounds& facts) {
   const auto memory = search_.memory();
   const bool has_room = search_.has_room_for_facts();
@@ -334,7 +335,7 @@ void Rank::send_statistics(Stats counts) {
   parent_.send(message::ProcessStatistics{statistics(std::move(counts))});
 }
 
-// A limit may be reached just when a plan was found.
+// Sends a plan that was found just when a limit was reached, too.
 void Rank::send_finished(Stats counts) {
   send_found();
   parent_.send(message::RankFinished{statistics(std::move(counts)), messages_sent_});

@@ -28,45 +28,47 @@ namespace grove::detail {
 
 // Holds the nodes of a rank for its workers, and exchanges messages about them with the coordinator
 // and with other ranks. The protocol is at the head of coordinator.cpp. search() and the objects
-// reachable from it are thread-safe. Everything else: one thread at a time, the thread that
-// communicates.
+// reachable from it are thread-safe. Only the communicating thread may use everything else.
 class Rank {
  public:
-  // All arguments must outlive this, except `stops`, which is copied: the agents' stops computed so
-  // far.
+  // All arguments must outlive this, except `stops`, which is copied. `stops`: cached stops of the
+  // agents, to start from.
   Rank(const Problem& problem, const SolveOptions& options, const Limits& limits,
        Transport& transport, const AgentStopsCache& stops);
 
   SharedSearch& search() { return search_; }
   const LocalNodes& nodes() const { return nodes_; }
-  // Initial contents of the workers' caches.
+  // Cached stops of the agents; the workers' caches start with them.
   const AgentStopsCache& stops() const { return stops_; }
 
-  // Handles a message to a rank. Throws std::invalid_argument for a message that a rank cannot
-  // receive.
+  // Handles a message to this rank. Throws std::invalid_argument for a type of message that no rank
+  // receives.
   void handle(int from, message::Message&& message);
   // On rank 0: sets the lower bound of the whole search.
   void know(Cost bound) { shared_bounds_.know(bound); }
-  // Sends what is new. Plans are always sent. A status is sent at once if it is urgent, otherwise
-  // at a limited rate; see ParentLink::report(). `now` in seconds since the beginning.
+  // Sends plans found here, learned bounds, pricing requests or replies, and the status. Plans are
+  // sent at once. A status is sent at once if it is urgent, otherwise at a limited rate; see
+  // ParentLink::report(). `now`: seconds since the start of the run.
   void send_updates(double now);
-  // When send_updates() may have something to send even if nothing happens until then, in seconds
-  // since the beginning. Infinity: never.
+  // The time at which send_updates() can have something to send even if nothing happens until then,
+  // in seconds since the start of the run. Infinity: never.
   double next_send_time() const {
     return ended_ ? parent_.reports_at()
                   : std::min(parent_.reports_at(), bound_broadcast_.next_send_time());
   }
 
-  // Sends the statistics so far, including `counts` of the workers. Not after send_finished().
+  // Sends the current statistics, including `counts`, those of the workers. Must not be called
+  // after send_finished().
   void send_statistics(Stats counts);
-  // True if the workers have to end. When they have, call send_finished() with their counts.
+  // True if the workers must end. The caller calls send_finished() with their counts after they
+  // have ended.
   bool ended() const { return ended_; }
   void send_finished(Stats counts);
   // True if no further message will arrive.
   bool left() const;
 
  private:
-  struct DeferredBatch {  // a batch that arrived before its tree or its epoch
+  struct DeferredBatch {  // a batch that arrived before its tree or its Restart
     int from;
     message::NodeBatch batch;
   };
@@ -100,10 +102,10 @@ class Rank {
   ParentLink parent_;
   LocalNodes nodes_;
   AgentStopsCache stops_;
-  Trees trees_;  // outlives every holder of their nodes
+  Trees trees_;  // must outlive everything that holds nodes of the trees
   RemoteBounds shared_bounds_;
-  TreeSource remote_trees_;  // the coordinator instantiates trees,
-  WorkObserver unwatched_;   // and counts the work
+  TreeSource remote_trees_;  // supplies no tree: the coordinator instantiates them
+  WorkObserver unwatched_;   // does nothing: the coordinator observes the run
   SharedSearch search_;
 
   std::map<std::uint32_t, NodePtr> roots_;  // by tree number
@@ -114,22 +116,22 @@ class Rank {
   std::vector<DeferredBatch> held_;
 
   struct Peer {
-    std::int64_t sent = 0;                                 // batches
-    std::int64_t taken = 0;                                // batches received from there
-    bool news = false;                                     // `taken` changed since the last status
+    std::int64_t sent = 0;   // batches
+    std::int64_t taken = 0;  // batches received from there
+    bool news = false;       // true: `taken` changed since the last status
     std::map<std::int64_t, std::vector<NodePtr>> custody;  // by batch number
   };
   std::map<int, Peer> peers_;
-  std::int64_t in_custody_ = 0;         // nodes
-  std::int64_t cached_only_until_ = 0;  // kCachedOnly until this number of nodes is expanded here
+  std::int64_t in_custody_ = 0;         // number of nodes in custody
+  std::int64_t cached_only_until_ = 0;  // value of `expanded` at which kCachedOnly ends
   std::int64_t nodes_sent_ = 0;
   std::int64_t learned_bounds_sent_ = 0;
 
-  std::vector<NodePtr> gathered_;  // nodes for a checkpoint that are not sent yet
+  std::vector<NodePtr> gathered_;  // nodes of the snapshot not yet sent to rank 0
 
   bool ended_ = false;
-  // Messages directly from rank to rank: how many were sent to each rank, how many were received
-  // here, and how many will be received in total (set at shutdown).
+  // Numbers of messages directly from rank to rank: sent to each rank, received here, and to be
+  // received here in total (set at shutdown).
   std::map<std::int32_t, std::int64_t> messages_sent_;
   std::int64_t received_messages_ = 0;
   std::optional<std::int64_t> expected_messages_;

@@ -16,7 +16,8 @@ RankNodes::RankNodes(ChildLinks& children)
   for (std::size_t child = 0; child < latest_.size(); ++child) bounds_.insert(kInfiniteCost);
 }
 
-// A child handles AssignNodes in the order sent, so its status covers the first assignments.
+// A child handles AssignNodes messages in sending order, so its status covers the earliest
+// assignments.
 void RankNodes::update(int child, message::Status status) {
   const auto place = static_cast<std::size_t>(child);
   message::Status& latest = latest_.at(place);
@@ -52,7 +53,7 @@ Cost RankNodes::evicted_bound() const {
   return std::ranges::min(latest_, {}, &message::Status::evicted_bound).evicted_bound;
 }
 
-// The nodes of a child that has not handled the last Restart are unknown.
+// The nodes of a child that has not handled the last Restart are unknown, so some may be live.
 bool RankNodes::any() const {
   return children_with_nodes_ > 0 || entrusted_under_way_ > 0 ||
          children_of_this_epoch_ < std::ssize(latest_);

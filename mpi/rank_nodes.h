@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The live nodes of a search that are distributed over many ranks.
+// Live nodes of a search that are distributed over many ranks.
 #pragma once
 
 #include <cstdint>
@@ -13,23 +13,24 @@
 
 namespace grove::detail {
 
-// State of a coordinator's children: the latest status of each child, and the assigned nodes that
-// are still in transit. The proof that this bounds all plans is at the head of coordinator.cpp. One
-// thread at a time.
+// A coordinator's view of the live nodes: the latest status of each child, and the assigned nodes
+// that no status has covered yet. The proof that their minimum bounds all plans is at the head of
+// coordinator.cpp. One thread at a time.
 class RankNodes : public LiveNodes {
  public:
   // `children` must outlive this.
   explicit RankNodes(ChildLinks& children);
 
-  // Handles a new status of `child`. Throws std::invalid_argument for a status that the child
-  // cannot send.
+  // Handles a new status from `child`. Throws std::invalid_argument for a status that cannot follow
+  // the previous one.
   void update(int child, message::Status status);
 
   Cost bound() const override;
   Cost evicted_bound() const override;
   bool any() const override;
   Counts counts() const override { return counts_; }
-  // The children's statuses of nodes and limits merged into one, for the parent.
+  // The statuses of all children merged into one, for the parent: only the fields about nodes,
+  // proven bounds and limits.
   message::Status merged() const;
 
   // Assigns `root` to the least loaded child and broadcasts its tree.
@@ -37,13 +38,13 @@ class RankNodes : public LiveNodes {
   void prune(Cost /*cost*/) override {}  // each rank prunes when it receives the incumbent
   void restart(std::span<const NodePtr> roots, Cost proven) override;
 
-  // Assigns nodes to a child, by default to the least loaded one. Their trees must have been
-  // broadcast. The evicted bound in `nodes` is covered too.
+  // Assigns nodes to a child, by default to the least loaded one. The trees of the nodes must have
+  // been broadcast. The evicted bound in `nodes` counts as assigned, too.
   void assign(int child, message::AssignNodes nodes);
   void assign(message::AssignNodes nodes) { assign(idlest(), std::move(nodes)); }
-  // Broadcasts a tree, once.
+  // Broadcasts a tree, unless that was done before.
   void send(const Tree& tree);
-  // Broadcasts Restart. Until the status of a child has the new epoch, the nodes of the child are
+  // Broadcasts Restart. Until a child's status has the new epoch, the nodes of the child count as
   // unknown.
   void broadcast_restart(Cost proven);
 
@@ -53,8 +54,8 @@ class RankNodes : public LiveNodes {
 
   ChildLinks& children_;
   std::vector<message::Status> latest_;      // by child
-  std::vector<std::deque<Cost>> under_way_;  // by child: the bounds of assigned nodes
-  std::multiset<Cost> bounds_;               // of both
+  std::vector<std::deque<Cost>> under_way_;  // by child: bounds of nodes in transit
+  std::multiset<Cost> bounds_;               // bounds of all latest statuses and assigned nodes
   std::int64_t children_with_nodes_ = 0;
   std::int64_t entrusted_under_way_ = 0;
   std::int32_t epoch_ = 0;

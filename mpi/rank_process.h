@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One process of a distributed search.
+// A process of a distributed search.
 #pragma once
 
 #include <deque>
@@ -13,12 +13,12 @@
 
 namespace grove::detail {
 
-// A rank and the coordinators on it, if any, which share a transport. One thread at a time, except
+// A rank and the coordinators on it, if any. They share a transport. One thread at a time, except
 // for the thread-safe functions of Rank.
 class RankProcess {
  public:
-  // All arguments must outlive this, except `stops`; see Rank. On rank 0 the observer receives the
-  // events of the run.
+  // All arguments must outlive this, except `stops`; see Rank. `observer` receives the events of
+  // the run on rank 0, and none on other ranks.
   RankProcess(const Problem& problem, const SolveOptions& options, const Limits& limits,
               RunObserver& observer, Transport& transport, const AgentStopsCache& stops);
   RankProcess(const Problem& problem, const SolveOptions& options, const Limits& limits,
@@ -26,17 +26,17 @@ class RankProcess {
       : RankProcess(problem, options, limits, observer, transport,
                     AgentStopsCache(problem.instance, problem.distances)) {}
 
-  // Handles all messages that have arrived, and sends what is new. `now` in seconds since the
-  // beginning. Returns true if any message had arrived.
+  // Handles all messages that have arrived, and sends updates. `now`: seconds since the start of
+  // the run. Returns true if any message had arrived.
   bool exchange_messages(double now);
 
   Rank& rank() { return rank_; }
-  // When exchange_messages() may have something to send even if nothing happens until then, in
-  // seconds since the beginning. Infinity: never.
+  // The time at which exchange_messages() can have something to send even if nothing happens until
+  // then, in seconds since the start of the run. Infinity: never.
   double next_send_time() const;
-  // The top coordinator. nullptr on all ranks except 0.
+  // The top coordinator; nullptr on all ranks except 0.
   Coordinator* coordinator() { return coordinator_.get(); }
-  // True if no further message is to be sent or received.
+  // True if no further message will be sent or received.
   bool left() const { return rank_.left(); }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Global bounds of a search whose coordinator is in another process.
+// A rank's copy of the global bounds of a distributed search.
 #pragma once
 
 #include <algorithm>
@@ -14,9 +14,9 @@
 
 namespace grove::detail {
 
-// The latest bounds received from the coordinator, and the plans and bounds to be sent to it. The
-// functions of SharedBounds are thread-safe. All others: only the thread that communicates for this
-// rank.
+// Stores the latest bounds received from the coordinator, and the plans and bounds to be sent to
+// it. The functions of SharedBounds are thread-safe. Only the communicating thread may call the
+// others.
 class RemoteBounds : public SharedBounds {
  public:
   struct Found {
@@ -31,24 +31,24 @@ class RemoteBounds : public SharedBounds {
   bool over() const override { return over_ || limits_.stop_requested(); }
   Cost cutoff() const override { return cutoff_; }
   std::optional<Plan> plan_below(Cost cost) const override;
-  // If the bound of the whole search is unknown, that of the local nodes is sufficient to choose
-  // among them.
+  // The minimum of the bound of the whole search (infinite while unknown) and the bound of the
+  // local nodes, which alone suffices to choose among the local nodes.
   Cost lower_bound() const override { return std::min(known_.load(), frontier_.bound()); }
-  // No worker prunes by the plan before rank 0 has checked it.
+  // Stores the plan, to be sent. No worker prunes by it before rank 0 has checked it.
   void post(Plan plan, PlanSource source) override;
   void prove(Cost bound, BoundSource by) override;
   void nodes_changed() override {}
 
-  // The best plan posted since the last call. Returns nullopt if no posted plan was better than the
+  // Returns the best plan posted since the last call, or nullopt if no such plan is better than the
   // incumbent.
   std::optional<Found> take_found();
-  // The best bound proven outside the tree search, and its source.
+  // The best bound that this rank has proven outside the tree search, and its source.
   std::pair<Cost, BoundSource> proven() const;
   // Sets the lower bound of the whole search.
   void know(Cost bound) { known_ = bound; }
-  // Takes a checked plan as the incumbent if it is better.
+  // Makes a checked plan the incumbent if it is better than the current one.
   void adopt(Plan plan);
-  // Ends the run: cancels the workers.
+  // Ends the run: over() returns true from now on, and the workers abort their work items.
   void end();
 
  private:

@@ -8,21 +8,22 @@
 
 namespace grove::detail {
 
-// All ranks that share it construct it together. They also destroy it together, when none of them
-// uses it any more.
+// Memory that the ranks on one host, its members, share. They construct it together, and destroy it
+// together when none of them uses it any more.
 class SharedMemory {
  public:
-  SharedMemory() = default;  // no shared memory
+  SharedMemory() = default;  // provides no shared memory
   virtual ~SharedMemory() = default;
   SharedMemory(const SharedMemory&) = delete;
   SharedMemory& operator=(const SharedMemory&) = delete;
 
-  // The same bytes on all members, possibly at different addresses. Each address is a multiple of
-  // SharedArrays::kAlignment. Empty: there is no shared memory.
+  // The shared bytes, possibly at different addresses on different members. The start address is a
+  // multiple of SharedArrays::kAlignment. Empty: there is no shared memory.
   std::span<std::byte> bytes() const { return bytes_; }
   int member() const { return member_; }
   int members() const { return members_; }
-  // Why requested memory could not be provided, in a few words. Empty: nothing is missing.
+  // A few words that say why requested memory could not be provided; empty if it was provided or
+  // none was requested.
   const std::string& why_not() const { return why_not_; }
 
  protected:

@@ -4,8 +4,8 @@
 namespace grove::detail {
 namespace {
 
-// Bytes. Smaller arrays are not worth sharing: every host has that much memory, and the ranks would
-// only wait for one another.
+// Bytes. Smaller arrays are not shared, because every host has that much memory and the ranks would
+// have to wait for one another.
 constexpr std::size_t kMinShared = std::size_t{16} << 20;
 
 }  // namespace

@@ -13,17 +13,18 @@ namespace grove::detail {
 
 class SharedProblem {
  public:
-  // The size of the shared memory in bytes, and how many of these bytes must be zero. Equal on all
-  // ranks. Both are 0 for small problems.
+  // Size of the shared memory in bytes, and the number of its first bytes that must be zero. Equal
+  // on all ranks; 0 for small problems.
   struct Need {
     std::size_t bytes = 0;
     std::size_t zero_bytes = 0;
   };
   static Need need(const Instance& instance);
 
-  // Builds the problem of `instance`. The ranks that share `memory` each build a part of the
-  // arrays. If `memory` is empty, each rank builds all arrays itself. `instance` and `memory` must
-  // outlive this. A process may have only one SharedProblem at a time.
+  // Builds the problem of `instance`. Each of the ranks that share `memory` builds a part of the
+  // arrays, with `threads` threads. If `memory` is empty, each rank builds all arrays itself.
+  // `instance` and `memory` must outlive this. A process must not have two SharedProblems at the
+  // same time.
   SharedProblem(const Instance& instance, const Limits& limits, int threads,
                 const SharedMemory& memory);
   ~SharedProblem();

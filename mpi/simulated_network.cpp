@@ -53,7 +53,7 @@ void SimulatedNetwork::send(int from, int to, std::string bytes) {
 std::optional<ReceivedMessage> SimulatedNetwork::receive(int rank) {
   Inbox& inbox = inboxes_[static_cast<std::size_t>(rank)];
   if (inbox.empty() || inbox.top().arrival > now_) return std::nullopt;
-  // The order depends only on arrival and serial, so the bytes may be moved out.
+  // The order in the queue depends only on `arrival` and `serial`, so the bytes can be moved out.
   ReceivedMessage received = std::move(const_cast<UnderWay&>(inbox.top()).received);
   inbox.pop();
   return received;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Network inside one process with a simulated clock, for tests and for the simulator.
+// Network inside one process, with a simulated clock, for tests and the simulator.
 #pragma once
 
 #include <cstddef>
@@ -15,12 +15,11 @@
 
 namespace grove::detail {
 
-// Delivers each message after the delay that the caller's function gives for it. Messages of
-// different pairs of ranks may overtake each other, messages from one rank to another never. One
-// thread at a time.
+// Delivers each message after the delay that the caller's DelayModel returns for it. Messages with
+// the same sender and receiver never overtake each other; other messages may. One thread at a time.
 class SimulatedNetwork {
  public:
-  // The time from sending to arrival, in seconds of the simulated clock.
+  // Returns the time from sending to arrival, in seconds of the simulated clock.
   using DelayModel = std::function<double(int from, int to, std::size_t bytes)>;
 
   SimulatedNetwork(int ranks, DelayModel delay);
@@ -32,8 +31,8 @@ class SimulatedNetwork {
   double now() const { return now_; }
   // Advances the clock to `time`. No effect if `time` is in the past.
   void advance_to(double time);
-  // Arrival time of the next message for `rank`, possibly in the past. Infinity if none is in
-  // transit.
+  // Arrival time of the next message for `rank`, possibly in the past. Infinity if no message is in
+  // transit to it.
   double next_arrival(int rank) const;
 
  private:

@@ -21,16 +21,16 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kAccountInterval_s = 2;      // of statistics, which only observers need
-constexpr double kHeartbeatInterval_s = 0.3;  // while all ranks wait for a worker to end
+constexpr double kAccountInterval_s = 2;      // between two statistics, which only observers need
+constexpr double kHeartbeatInterval_s = 0.3;  // between statistics while ranks wait for a worker
 
-constexpr double kMinNap_s = 1e-5;  // a shorter sleep would count as the same poll
+constexpr double kMinNap_s = 1e-5;  // minimum sleep; a shorter one can hit the same poll time
 
 void sleep(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
-// The searching threads and their result.
+// The searching threads of this rank and their outcome.
 class Searching {
  public:
   Searching(const Problem& problem, const SolveOptions& options, const Limits& limits, Rank& rank,
@@ -43,7 +43,7 @@ class Searching {
   }
   ~Searching() { limits_.cancel_workers(); }
 
-  // Throws what a worker threw.
+  // True once all workers have ended. Throws what a worker threw.
   bool ended() const {
     if (!ended_) return false;
     if (failure_) std::rethrow_exception(failure_);
@@ -73,8 +73,8 @@ class Searching {
   std::jthread thread_;  // declared last, so destroyed first
 };
 
-// Time since the last message. A time in which this process did not run counts at most
-// kMaxInterval_s: messages that arrived in that time are not received yet.
+// Time since the last message. A period in which this process did not run counts at most
+// kMaxInterval_s, because messages that arrived in it have not been received yet.
 class ReceiveTimeout {
  public:
   void update(double now, bool heard) {

@@ -12,7 +12,7 @@
 namespace grove::detail {
 namespace {
 
-// Status at the beginning, when all ranks below are idle.
+// Status at the start, when all ranks below are idle.
 message::Status first_status(const LoadBalancer& load_balancer) {
   message::Status status;
   status.work_requests = load_balancer.work_requests();
@@ -74,7 +74,8 @@ void SubCoordinator::handle(int from, message::Message&& message) {
   changed_ = true;
 }
 
-// A batch between two children is covered by the merged status before and after its release.
+// Releases batches between two children here; the merged status covers such a batch before and
+// after the release. Reports of other batches go to the parent.
 void SubCoordinator::heard(int child, message::Status&& status) {
   load_balancer_.heard(child, status);
   for (const message::BatchReceived& taken : status.taken) {
@@ -86,13 +87,13 @@ void SubCoordinator::heard(int child, message::Status&& status) {
       taken_.push_back(taken);
   }
   nodes_.update(child, std::move(status));
-  if (ending_) return;  // a batch sent after a RankFinished would be left in transit
+  if (ending_) return;  // a batch ordered now could be left in transit at the end
   while (const auto transfer = load_balancer_.next())
     children_.send(transfer->from,
                    message::SendNodes{transfer->to, transfer->nodes, transfer->to_idle});
 }
 
-// All plans found before the snapshots have been forwarded by then.
+// When all children have taken their snapshots, all plans found before them have been forwarded.
 void SubCoordinator::gathered(const message::SnapshotTaken& parts) {
   gathered_.evicted_bound = std::min(gathered_.evicted_bound, parts.evicted_bound);
   if (++looked_ == children_.count()) parent_.send(gathered_);
@@ -103,7 +104,7 @@ void SubCoordinator::send_finished(const message::RankFinished& message) {
   if (++finished_children_ == children_.count()) parent_.send(finished_);
 }
 
-// Some child must send a batch, even an empty one, because the receiver waits for it.
+// One child must send a batch, even an empty one, because the receiver waits for it.
 void SubCoordinator::order(const message::SendNodes& order) {
   children_.send(load_balancer_.donor(order.count), order);
 }

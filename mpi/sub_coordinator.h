@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Coordinator of a part of the ranks, used when there are many ranks.
+// Coordinator of some of the ranks, used when there are many ranks.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,21 @@
 
 namespace grove::detail {
 
-// Merges messages of its children on the way up, spreads messages of its parent on the way down,
-// and keeps the ranks below it at work. To its parent it acts like a rank, to its children like the
-// top coordinator. The proof that this is sound is at the head of coordinator.cpp. One thread at a
-// time.
+// Merges messages from its children for its parent, distributes messages from its parent to its
+// children, and balances the load among the ranks below it. To its parent it acts like a rank, to
+// its children like the top coordinator. The proof that the lower bound stays valid is at the head
+// of coordinator.cpp. One thread at a time.
 class SubCoordinator {
  public:
-  // The coordinator of `level`, below the top, on the transport's rank. `transport` must outlive
+  // The level-`level` coordinator, below the top, on the transport's rank. `transport` must outlive
   // this.
   SubCoordinator(Transport& transport, const Hierarchy& hierarchy, int level, const Tuning& tuning);
 
-  // Handles a message of a child (`from` is its rank) or of the parent. Throws
-  // std::invalid_argument for a message that neither of them sends.
+  // Handles a message from a child (`from` is its rank) or from the parent. Throws
+  // std::invalid_argument for a type of message that neither of them sends.
   void handle(int from, message::Message&& message);
-  // Reports changes to the parent; see ParentLink::report().
+  // Reports changes to the parent; see ParentLink::report(). `now`: seconds since the start of the
+  // run.
   void send_updates(double now);
   double next_send_time() const { return parent_.reports_at(); }
 
@@ -43,8 +44,8 @@ class SubCoordinator {
   LoadBalancer load_balancer_;
   ParentLink parent_;
   bool changed_ = false;                       // changed since the last status
-  std::int64_t assigned_ = 0;                  // number of AssignNodes messages handled
-  std::vector<message::BatchReceived> taken_;  // not reported yet
+  std::int64_t assigned_ = 0;                  // number of AssignNodes messages handled so far
+  std::vector<message::BatchReceived> taken_;  // receipts not yet reported to the parent
   Cost cutoff_ = kInfiniteCost;                // cost of the incumbent
   message::SnapshotTaken gathered_;  // merged over the children that have taken a snapshot
   int looked_ = 0;

@@ -15,9 +15,9 @@ struct ReceivedMessage {
   std::string bytes;
 };
 
-// Carries messages among a fixed set of ranks, 0 to ranks() - 1. Each message arrives once, whole,
-// and after every earlier message of the same sender to the same receiver. No other order is
-// guaranteed. A rank may send to itself. One thread at a time.
+// Carries messages among a fixed set of ranks, 0 to ranks() - 1. Each message arrives once,
+// complete, and after every earlier message from the same sender to the same receiver. No other
+// order is guaranteed. A rank can send to itself. One thread at a time.
 class Transport {
  public:
   Transport() = default;
@@ -33,7 +33,7 @@ class Transport {
     bytes_ += static_cast<std::int64_t>(bytes.size());
     do_send(to, std::move(bytes));
   }
-  // The next message that has arrived. Returns nullopt at once if there is none.
+  // Returns the next message that has arrived. Returns nullopt at once if no message has arrived.
   virtual std::optional<ReceivedMessage> receive() = 0;
 
   // Messages and bytes sent so far.

@@ -33,7 +33,7 @@ def outcome_of(case):
 
 
 def cases_of(program):
-    """Returns the results of the cases of a GoogleTest program, from its output."""
+    """Returns the results of the test cases in the output of a GoogleTest program."""
     cases = []
     name, lines = None, []
     for line in program.output.splitlines():
@@ -53,7 +53,7 @@ def cases_of(program):
 
 
 def read_results(file):
-    """Returns the results of one JUnit file of CTest."""
+    """Returns the results in one JUnit file of CTest."""
     try:
         cases = xml.etree.ElementTree.parse(file).getroot().iter("testcase")
     except (OSError, xml.etree.ElementTree.ParseError) as error:
@@ -68,7 +68,7 @@ def last_lines(output):
 
 
 def reason_to_skip(output):
-    """Returns the text that GTEST_SKIP() printed, or the last line of a script that exited with 77."""
+    """Returns the text that GTEST_SKIP() printed, or the last line of a script that exited with code 77."""
     by_gtest = re.search(r": Skipped\n(.+)", output)
     return (by_gtest.group(1) if by_gtest else last_lines(output)[-1]).strip()
 
@@ -81,7 +81,7 @@ def print_failed(part, results):
 
 
 def print_skipped(part, results):
-    """Prints one line for each reason."""
+    """Prints one line for each reason why tests were skipped."""
     names = {}
     for result in results:
         names.setdefault(reason_to_skip(result.output), []).append(result.name)
@@ -105,7 +105,7 @@ def summarise(parts):
 
 
 def print_names(tests):
-    """Prints the names in groups. Names of one group have the same text before the first dot."""
+    """Prints the test names in groups. Names in one group have the same text before the first dot."""
     groups = {}
     for test in tests:
         group, _, name = test["name"].partition(".")

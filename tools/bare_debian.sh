@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: MIT
-# Sourced by tools/package-test and tools/fresh-machine: makes a minimal Debian 12 in a folder and runs
-# commands in it. Needs root and debootstrap. Packages come from this machine's apt sources.
+# Functions for tools/package-test and tools/fresh-machine that make a minimal Debian 12 in a folder and run commands in
+# it. Need root and debootstrap. Packages come from the apt sources of this machine.
 
 fail() { echo "tools/${0##*/}: error: $*" >&2; exit 2; }
 
@@ -10,10 +10,10 @@ needs_debootstrap() {
   command -v debootstrap >/dev/null || fail "debootstrap was not found; expected the Debian package debootstrap"
 }
 
-# make_bare_debian ROOT: a minimal Debian 12 in an empty folder, with a user `someone`.
+# make_bare_debian ROOT: makes a minimal Debian 12 with a user `someone` in an empty folder.
 make_bare_debian() {
   local root=$1 sources mirror
-  # SITE RELEASE COMPONENT of all apt sources of Debian 12.
+  # All apt sources for Debian 12, as lines "SITE RELEASE COMPONENT".
   # shellcheck disable=SC2016
   sources=$(apt-get indextargets --format '$(SITE) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' |
     grep -E '^[^ ]+ bookworm(-updates|-security)? ' | sort -u) ||
@@ -24,15 +24,15 @@ make_bare_debian() {
   # shellcheck disable=SC2001
   sed 's/^/deb /' <<<"$sources" >"$root/etc/apt/sources.list"
   apt-config dump | grep -E '^Acquire::(https?::|Check-)' >"$root/etc/apt/apt.conf.d/90host" || true
-  echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe-io"  # loss at a power failure is acceptable
+  echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe-io"  # losing the folder in a power failure is acceptable
   cp -L /etc/resolv.conf "$root/etc/resolv.conf"
-  # As written by Debian's installer.
+  # The same lines as Debian's installer writes.
   printf '127.0.0.1\tlocalhost\n127.0.1.1\t%s\n' "$(uname -n)" >"$root/etc/hosts"
   inside "$root" root useradd --create-home --shell /bin/bash someone
 }
 
-# inside ROOT USER COMMAND...: runs a command as a user of that Debian. It shares the kernel and the network
-# with this machine, but no files. Its mounts and processes end with it.
+# inside ROOT USER COMMAND...: runs a command as a user in that Debian. The command shares the kernel and the network
+# with this machine, but no files. When it ends, its mounts and all its processes end.
 inside() {
   local root=$1 user=$2 home
   shift 2

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove: the subcommands and the exit code.
+// grove: main program with all subcommands.
 #include <CLI/CLI.hpp>
 #include <string>
 #include <vector>

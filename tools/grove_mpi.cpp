@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove-mpi: the search of Grove with several processes.
+// grove-mpi: main program of the distributed solver.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -30,7 +30,8 @@ constexpr const char* kProgramFooter = R"(Exit codes:
 
 'grove-mpi help COMMAND' and 'grove-mpi COMMAND --help' explain a command, with examples.)";
 
-// Whether the user asks only for help or the version. That needs no MPI, which may not start here.
+// Returns whether the user asks only for help or the version. The program then does not start MPI,
+// which may fail on this machine.
 bool asks_for_help(std::span<char* const> arguments) {
   if (arguments.empty() || std::string_view(arguments.front()) == "help") return true;
   for (const std::string_view word : arguments) {
@@ -40,7 +41,8 @@ bool asks_for_help(std::span<char* const> arguments) {
   return false;
 }
 
-// Whether this is rank 0 according to the environment of mpirun or srun, or the only process.
+// Returns whether this process is rank 0 according to the environment that mpirun or srun sets, or
+// was started without them.
 bool is_first_process() {
   for (const char* variable : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "SLURM_PROCID"})
     if (const char* rank = std::getenv(variable)) return std::string_view(rank) == "0";
@@ -67,7 +69,7 @@ int main(int argc, char** argv) {
     MpiSession session;
     return run(session, is_first_process(), argc, argv);
   }
-  stop_on_signals();  // before MPI starts, since a signal then would kill the job
+  stop_on_signals();  // before MPI starts, because a signal during its start would end the job
   MpiSession session(argc, argv);
   return run(session, session.rank() == 0, argc, argv);
 }

@@ -122,7 +122,8 @@ void add_options(CLI::App& app, SimArguments& a) {
       ->type_name("FILE.csv");
 }
 
-// Returns the plan that the primal search finds without a tree.
+// Returns the best plan that the primal search finds in `steps` steps without a constraint tree.
+// Returns nullopt if it finds none.
 std::optional<Plan> find_plan(const Problem& problem, const SolveOptions& options,
                               const Limits& limits, std::int64_t steps) {
   AgentStopsCache stops(problem.instance, problem.distances);
@@ -207,7 +208,8 @@ class Study {
     return run;
   }
 
-  // Sets the cost of work for the other runs; if this run did no work, each of them measures it.
+  // Sets the seconds per unit of effort for the other runs to the mean of the run with one rank. If
+  // that run had no effort, leaves the value at 0, so that each run measures its own.
   void calibrate(const SimulatedRun& alone) {
     const SimulatedWorker::Tally& tally = alone.ranks.front().worker;
     if (a_.machine.seconds_per_work > 0 || tally.work <= 0) return;

@@ -1,11 +1,10 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: MIT
-# Sourced by tools/quickstart, tools/test and others: installs missing packages, and configures presets
-# quietly.
+# Functions for tools/quickstart, tools/test and other scripts that install missing packages and configure presets.
 
 say() { printf '\n== %s\n' "$*"; }
 
-# Runs a command; shows its output only if it fails.
+# quietly COMMAND...: runs a command and shows its output only if it fails.
 quietly() {
   local log status=0
   log=$(mktemp)
@@ -15,8 +14,7 @@ quietly() {
   return "$status"
 }
 
-# find_missing_packages LIST...: sets the array `missing` to the packages of the lists that are not
-# installed.
+# find_missing_packages LIST...: sets the array `missing` to the packages in the lists that are not installed.
 find_missing_packages() {
   local package
   missing=()
@@ -27,7 +25,7 @@ find_missing_packages() {
   done < <(cat "$@")
 }
 
-# install_missing [PREFIX...]: installs `missing`; PREFIX are words before apt-get, such as sudo.
+# install_missing [PREFIX...]: installs `missing`. PREFIX are words before apt-get, such as sudo.
 install_missing() {
   local apt=("$@" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=120)
   quietly "${apt[@]}" update &&
@@ -35,8 +33,8 @@ install_missing() {
     switch_off_daemons "$@"
 }
 
-# Debian starts installed daemons immediately and at every boot. The tests start their own, so the daemons
-# among `missing` are disabled. Daemons that were installed before are not changed.
+# switch_off_daemons [PREFIX...]: disables the daemons among `missing`. Debian starts a daemon when it is installed and
+# at every boot, but the tests start their own. Daemons that were installed before are not changed.
 switch_off_daemons() {
   local package
   [ -d /run/systemd/system ] || return 0
@@ -47,7 +45,7 @@ switch_off_daemons() {
   done
 }
 
-# Prints the commands that install `missing`, for a user who may not run them, or only with a password.
+# Prints the commands that install `missing`, for a user who may not run them or needs a password to do so.
 say_what_to_install() {
   local as_root=""
   if command -v sudo >/dev/null; then
@@ -60,8 +58,7 @@ say_what_to_install() {
   echo "  ${as_root}apt-get install -y --no-install-recommends ${missing[*]}"
 }
 
-# ensure_packages LIST...: installs missing packages if this user may; else prints the commands and exits
-# with 2.
+# ensure_packages LIST...: installs missing packages if this user may; otherwise prints the commands and exits with 2.
 ensure_packages() {
   local missing
   find_missing_packages "$@"
@@ -78,7 +75,7 @@ ensure_packages() {
   fi
 }
 
-# configure PRESET [CMake option]...
+# configure PRESET [CMake option]...: configures a preset quietly.
 configure() {
   quietly cmake --preset "$@"
 }

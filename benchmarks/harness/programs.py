@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs Grove's programs; a failure is an exception."""
+"""Runs Grove's programs. A failure raises an exception."""
 import json
 import os
 import shlex
@@ -23,7 +23,7 @@ def add_folders(parser):
 
 
 def run(command, timeout=None):
-    """Returns the output of a command. Raises Failure unless it exits with 0."""
+    """Runs a command and returns its standard output. Raises Failure unless it exits with 0."""
     command = [str(word) for word in command]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=timeout)
     if done.returncode != 0:
@@ -33,14 +33,14 @@ def run(command, timeout=None):
 
 
 def answer(solve, plan):
-    """Runs a solve; returns the content of its plan file."""
-    plan.unlink(missing_ok=True)  # otherwise a better one would be kept
+    """Runs the command `solve` and returns the content of its plan file `plan`."""
+    plan.unlink(missing_ok=True)  # otherwise grove would keep an existing cheaper plan
     run([*solve, "--quiet", "--output", plan])
     return json.loads(plan.read_text(encoding="utf-8"))
 
 
 def optimum(solve, plan):
-    """Runs a solve that must prove the optimum; returns the content of its plan file."""
+    """Runs the command `solve`, which must prove the optimum, and returns the content of its plan file."""
     found = answer(solve, plan)
     if found["status"] != "optimal":
         raise SystemExit(f"{shlex.join(map(str, solve))}: found status {found['status']}; expected optimal")
@@ -48,6 +48,6 @@ def optimum(solve, plan):
 
 
 def median_optimum(solve, plan, repeat):
-    """Runs optimum() `repeat` times; returns the plan file of the run with the median time."""
+    """Runs optimum() `repeat` times and returns the content of the plan file from the run with the median time."""
     runs = [optimum(solve, plan) for _ in range(repeat)]
     return sorted(runs, key=lambda found: found["stats"]["wall_s"])[repeat // 2]

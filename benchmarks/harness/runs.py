@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs solvers on cases, several at a time; one row of results per run."""
+"""Runs solvers on cases, several at a time, and makes one row of results per run."""
 
 import collections
 import concurrent.futures
@@ -27,7 +27,7 @@ FROM_STATS = {"roots": "roots_generated", "nodes": "nodes_expanded"} | {
     name: name for name in ("seed", "threads", "rtsp_calls", "low_level_calls", "peak_memory_mb", "version")}
 PATHS = re.compile(r"^(Agent \d+:|solution=)", re.M)  # paths in the output of other solvers
 FIRST_PLAN = re.compile(r"^[*HCLS] .* (\d+\.\d+)s$", re.M)
-GRACE_S = 10  # a program is killed this long after its time limit
+GRACE_S = 10  # a program is killed this many seconds after its time limit
 
 
 def gap(cost, bound):
@@ -37,17 +37,14 @@ def gap(cost, bound):
 
 
 def first_plan_seconds(log):
-    """Returns the time of the first plan in the log of a run. Returns None if there was no plan."""
+    """Returns the time of the first plan in the text log of a run. Returns None if the log has no plan."""
     found = FIRST_PLAN.search(log)
     return float(found.group(1)) if found else None
 
 
 @dataclasses.dataclass(frozen=True)
 class Grove:
-    """`grove solve` with options; on one thread without --threads.
-
-    Every plan is checked with `grove check`.
-    """
+    """`grove solve` with options. Uses one thread without --threads. Checks every plan with `grove check`."""
 
     program: str
     options: tuple = ()
@@ -76,11 +73,11 @@ class Grove:
 
 @dataclasses.dataclass(frozen=True)
 class OtherSolver:
-    """Any program for classical MAPF.
+    """Any solver for classical MAPF.
 
-    `command` may contain {map}, {scen}, {agents}, {time_limit} and {output}, a file that it may write. `pattern` is
-    searched in its output and in that file: a match means that it claims a plan, and group 1 is the cost. Paths in
-    that file are checked with `grove check`.
+    command: can contain {map}, {scen}, {agents}, {time_limit}, and {output} for a file that the solver writes. pattern:
+    regular expression for the solver's output and that file. A match means that the solver claims a plan; group 1 is
+    its cost. Paths in that file are checked with `grove check`.
     """
 
     grove: str
@@ -136,7 +133,7 @@ def csv_value(value):
 
 
 def row_of(job, maps):
-    """Runs a job; returns its row. A failure gives a row with status "error"."""
+    """Runs a job and returns its row. A failure gives a row with status "error"."""
     case = job.case
     row = dict.fromkeys(COLUMNS) | {
         "instance": case.id, "method": job.solver.name, "map": case.map, "scenario": case.scenario,
@@ -153,7 +150,7 @@ def row_of(job, maps):
 
 
 class Progress:
-    """Progress line on a terminal."""
+    """Shows a progress line on a terminal."""
 
     def __init__(self, total):
         self.total = total
@@ -173,9 +170,9 @@ class Progress:
 
 
 def run_all(jobs, maps, workers, csv_path=None):
-    """Returns the rows of all jobs in their order; skips and reports cases whose files are missing.
+    """Runs all jobs and returns their rows in the order of the jobs. Skips and reports cases with missing files.
 
-    Each row is also written to the CSV file when its job ends, so that an interrupted run keeps its rows.
+    Also writes each row to the CSV file as soon as its job ends, so that the rows survive an interruption.
     """
     cases = dict.fromkeys(job.case for job in jobs)
     missing = collections.Counter(filter(None, map(maps.missing, cases)))

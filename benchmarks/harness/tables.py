@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Writes Markdown tables of result rows."""
+"""Makes Markdown tables from result rows."""
 
 import math
 import statistics
@@ -8,7 +8,7 @@ PROVEN = ("optimal", "bounded")
 
 
 def grouped(rows, *columns):
-    """Returns {values of the columns: rows}, in the order of first appearance."""
+    """Groups rows by the values of columns; returns {values: rows} in the order of first appearance."""
     groups = {}
     for row in rows:
         groups.setdefault(tuple(row[column] for column in columns), []).append(row)
@@ -54,7 +54,7 @@ def table(head, lines):
 
 
 def cells(rows):
-    """Returns a table with a line per cell (map, N, M); entries list the values of its scenarios."""
+    """Returns a table with a line per cell (map, N, M). Each entry lists the values for the scenarios of the cell."""
     return table(
         ["map", "N", "M", "proven", "status", "cost", "bound", "gap %", "roots", "rTSP calls",
          "nodes", "s"],
@@ -66,7 +66,7 @@ def cells(rows):
 
 
 def proofs(rows):
-    """Returns a table of proven results by map and N, and of all rows."""
+    """Returns a table of proven results by map and N, and in total."""
     def line(name, agents, group):
         return [name, agents, len(group), count(group, "optimal"),
                 sum(map(within_one_percent, group)), sum(row["cost"] is None for row in group),
@@ -78,7 +78,7 @@ def proofs(rows):
 
 
 def plans(rows):
-    """Returns a table of the times of first plans and of the final gaps."""
+    """Returns a table of the times of first plans and the final gaps."""
     return table(
         ["map", "N/M", "plans", "first plan s, median", "worst", "gap %, median", "worst",
          "proven", "memory MB"],
@@ -90,7 +90,7 @@ def plans(rows):
 
 
 def comparison(rows):
-    """Returns a table that compares solvers: solved instances and the median time of these."""
+    """Returns a table that compares solvers by solved instances and the median time on these instances."""
     solvers = list(dict.fromkeys(row["method"] for row in rows))
 
     def entries(group, solver):
@@ -106,13 +106,14 @@ def comparison(rows):
 
 
 def ratio(pairs):
-    """Returns the geometric mean of a/b as text, "-" without pairs."""
+    """Returns the geometric mean of a/b over the pairs (a, b) as text; "-" if there are no pairs."""
     logs = [math.log(a / b) for a, b in pairs]
     return f"{math.exp(statistics.fmean(logs)):.2f}" if logs else "-"
 
 
 def ablation(rows, reference):
-    """Returns a table of each solver against the solver `reference`; ratios are over instances that both proved."""
+    """Returns a table that compares each solver with the solver `reference`. Ratios are over instances that both prove.
+    """
     def key(row):
         return row["instance"]
     full = {key(row): row for row in rows if row["method"] == reference}

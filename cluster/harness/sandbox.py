@@ -2,8 +2,8 @@
 """Runs a program in its own namespaces: processes, network, mounts, host name.
 
 Processes in the sandbox do not occupy ports of the machine and cannot be reached from outside. They end with the
-program, even if it is killed: the kernel kills a process namespace with its first process, and removes a network
-and mounts with their last user. So no clean-up is needed.
+program, even if it is killed: when the first process of a process namespace ends, the kernel kills all other
+processes in it, and it removes a network or mount namespace after its last process. No clean-up is necessary.
 """
 import os
 import shutil
@@ -17,27 +17,27 @@ HOST, ADDRESS = "node1", "10.77.0.1"
 INTERFACE, OTHER_END = "grove0", "grove1"
 HOSTS = Path("/etc/hosts")
 FILES = Path("/run/grove")  # in memory, visible only in the sandbox
-ON_HOST = FILES / "on_host"  # a link here, because mpirun does not accept a path with spaces
+ON_HOST = FILES / "on_host"  # a symbolic link, because mpirun accepts no path with spaces
 
-# Chain of processes that each die with their parent, even by SIGKILL: this process, unshare, the
-# sandbox's first process.
+# Command prefix that starts a process in new namespaces. This process, unshare and the first process of
+# the sandbox form a chain in which each process is killed when its parent ends, even by SIGKILL.
 ENTER = ["setpriv", "--pdeathsig", "KILL",
          "unshare", "--pid", "--net", "--mount", "--uts", "--ipc",
          "--mount-proc", "--fork", "--kill-child"]
 MARK = "GROVE_SANDBOX"
 
-# Environment for mpirun. It refuses to run as root without the first two variables. The third places its
-# files in the sandbox, so that they disappear even if mpirun is killed.
+# Environment for mpirun. Without the first two variables mpirun refuses to run as root. The third one
+# places its files in the sandbox, so that they disappear even if mpirun is killed.
 MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                    "OMPI_MCA_orte_tmpdir_base": str(FILES)}
 
 
 class NotHere(Exception):
-    """This machine or user does not support the sandbox; the text is the reason."""
+    """The sandbox is not possible on this machine or for this user; the text gives the reason."""
 
 
 def run_in_sandbox(function):
-    """Runs function() as root in a sandbox, on a host named HOST, and exits with its return value.
+    """Runs function() as root in a sandbox whose host name is HOST, and exits with its return value.
 
     Starts this program a second time in the sandbox. If that is impossible, prints the reason and exits with SKIPPED.
     """
@@ -57,7 +57,7 @@ def need_program(package, program):
 
 
 def run_command(command, environment):
-    """Runs a command; returns its exit code in the convention of shells."""
+    """Runs a command and returns its exit code as a shell would report it."""
     try:
         return _exit_code(subprocess.run(command, env=environment).returncode)
     except OSError as error:
@@ -67,13 +67,16 @@ def run_command(command, environment):
 
 
 def set_hosts(addresses):
-    """Writes the sandbox's /etc/hosts. addresses: {name: address}."""
+    """Writes the sandbox's /etc/hosts from `addresses`, a dict from host name to IP address."""
     lines = ["127.0.0.1 localhost", *(f"{address} {name}" for name, address in addresses.items())]
     (FILES / "hosts").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def connect(address, *on_host):
-    """Sets the address of this host, or of the host on which the command prefix `on_host` runs commands."""
+    """Enables the network interfaces of a host and sets its IP address.
+
+    on_host: command prefix that runs a command on that host; by default this host.
+    """
     for command in (["link", "set", "lo", "up"], ["link", "set", INTERFACE, "up"],
                     ["address", "add", f"{address}/24", "dev", INTERFACE]):
         subprocess.run([*on_host, "ip", *command], check=True)
@@ -90,7 +93,7 @@ def _outside():
     if attempt.returncode != 0:
         raise NotHere(f"namespaces are not permitted ({attempt.stderr.strip()}); a container needs "
                       "CAP_SYS_ADMIN and CAP_NET_ADMIN")
-    # Hides a surrounding Slurm job or mpirun from the sandbox.
+    # Hides the variables of a surrounding Slurm job or mpirun from the sandbox.
     environment = {name: value for name, value in os.environ.items()
                    if not name.startswith(("SLURM", "SBATCH", "SRUN", "PMI"))}
     inside = subprocess.Popen([*ENTER, sys.executable, *sys.argv], env={**environment, MARK: "1"})
@@ -110,7 +113,8 @@ def _outside():
 def _first_process(function):
     """Acts as the sandbox's init process: reaps orphaned processes.
 
-    A process that has ended but is not reaped remains a member of its group, and Slurm would wait for the group.
+    A process that has ended but has not been reaped remains a member of its process group, and Slurm would wait for
+    this group.
     """
     child = os.fork()
     if child == 0:
@@ -124,7 +128,7 @@ def _first_process(function):
 
 
 def _furnish():
-    """Sets host name and address, and mounts private /run (sockets of daemons) and /dev/shm."""
+    """Sets the host name and IP address, and mounts a private /run (for sockets of daemons) and /dev/shm."""
     subprocess.run(["hostname", HOST], check=True)
     subprocess.run(["mount", "-t", "tmpfs", "-o", "mode=755", "grove", "/run"], check=True)
     subprocess.run(["mount", "-t", "tmpfs", "shm", "/dev/shm"], check=True)
@@ -132,8 +136,8 @@ def _furnish():
     ON_HOST.symlink_to(Path(__file__).with_name("on_host"))
     set_hosts({HOST: ADDRESS})
     subprocess.run(["mount", "--bind", FILES / "hosts", HOSTS], check=True)
-    # One end of a virtual cable is the host's interface, because mpirun and Slurm's daemons do not start
-    # on a host that has only a loopback interface. The other end is for a second host.
+    # mpirun and Slurm's daemons do not start on a host that has only a loopback interface. Therefore the
+    # host gets one end of a virtual cable. The other end is for a second host.
     for command in (["link", "add", INTERFACE, "type", "veth", "peer", "name", OTHER_END],
                     ["link", "set", OTHER_END, "up"]):
         if subprocess.run(["ip", *command]).returncode != 0:

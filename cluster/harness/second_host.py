@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""A second host inside a sandbox, with its own host name, network and /dev/shm.
+"""Starts a second host inside a sandbox, with its own host name, network and /dev/shm.
 
-A virtual cable connects it to the first host. The two share only files, processors and memory.
+A virtual cable connects it to the first host. The two hosts share only files, processors and memory.
 """
 import subprocess
 
@@ -14,7 +14,7 @@ HOLDER = ["unshare", "--net", "--uts", "--ipc", "--mount", "sh", "-c",
 
 
 def start():
-    """Starts the second host; it exists until the sandbox ends."""
+    """Starts the second host, which exists until the sandbox ends."""
     holder = subprocess.Popen(HOLDER, stdout=subprocess.PIPE, text=True)
     if holder.stdout.readline() != "ready\n":
         raise sandbox.NotHere("a second set of namespaces is not permitted")

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""A private Slurm inside a sandbox: munged, one slurmctld, and a slurmd on each host.
+"""Starts a private Slurm inside a sandbox: munged, one slurmctld, and one slurmd per host.
 
-It is configured like a cluster of such hosts, with two partitions: `batch`, and `urgent`, whose jobs pre-empt those
-of `batch`. It does not use cgroups (proctrack/pgid), which a container may not have. So it neither binds ranks to
-cores nor enforces memory limits. Ports and sockets are the defaults, because the sandbox is isolated.
+The cluster has two partitions: `batch`, and `urgent`, whose jobs pre-empt those of `batch`. It does not use cgroups
+(ProctrackType is proctrack/pgid), because a container may not have them. Therefore it neither binds ranks to cores nor
+enforces memory limits. Ports and sockets have their default values, because the sandbox is isolated.
 """
 import os
 import subprocess
@@ -14,7 +14,7 @@ from . import sandbox
 FOLDER = sandbox.FILES / "slurm"
 CONFIGURATION = FOLDER / "slurm.conf"
 READY_WITHIN_S = 20
-# Configured resources of a node, as the job scripts request them.
+# Configured resources of a node, sufficient for the requests of the job scripts.
 CPUS, MEMORY_MB = 8, 16384
 
 SILENT = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
@@ -49,9 +49,9 @@ PartitionName=urgent Nodes=ALL PriorityTier=2 PreemptMode=OFF
 
 
 def start(hosts):
-    """Starts the daemons on `hosts` and waits until they accept jobs; returns the environment for commands.
+    """Starts the daemons, waits until they accept jobs, and returns the environment for Slurm commands.
 
-    hosts: host names; the first one is the sandbox's.
+    hosts: names of the hosts; the first one is the sandbox's own host.
     """
     sandbox.need_program("munge", "munged")
     sandbox.need_program("slurmctld", "slurmctld")
@@ -74,7 +74,7 @@ def start(hosts):
 
 
 def _start_munged():
-    """Starts munged as user munge, with a new key and the default socket, which is private to the sandbox."""
+    """Starts munged as user munge, with a new key, on the default socket, which is private to the sandbox."""
     folder = sandbox.FILES.parent / "munge"
     folder.mkdir(mode=0o755)
     subprocess.run(["chown", "munge:", folder], check=True)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Run by cpack on the installed files before it makes packages: strips programs and libraries, adds the
-# documents that Debian policy requires to each package, and renames folders as in Debian.
+# cpack runs this script on the installed files before it makes packages. The script strips programs and libraries, adds
+# the documents that Debian policy requires to each package, and renames folders as in Debian.
 cmake_minimum_required(VERSION 3.22)
 set(source ${CMAKE_CURRENT_LIST_DIR}/../..)
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
@@ -61,7 +61,7 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
     file(RENAME ${usr}/share/doc/grove ${usr}/share/doc/${package})
   endif()
   write_documents(${usr}/share/doc/${package})
-  # Its content is in the copyright file.
+  # The copyright file has the text of this licence.
   file(REMOVE ${usr}/libexec/grove/grove_vda5050/schemas/LICENSE.txt
     ${usr}/libexec/grove/grove_vda5050/schemas/README.md)
   file(GLOB pages ${usr}/share/man/man1/*.1)

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kFar = std::numeric_limits<int>::max();
 
-// Distances from all cells to one cell, by breadth-first search; kFar if there is no route.
+// Distances from all cells to one cell in steps, by breadth-first search; kFar if no path exists.
 class DistanceField {
  public:
   DistanceField(const grove::World& world, grove::Cell to)
@@ -36,7 +36,7 @@ class DistanceField {
   std::vector<int> steps_;
 };
 
-// Robots without a task.
+// Returns the robots without a task.
 std::vector<const grove::Agent*> free_robots(const grove::Instance& now) {
   std::set<std::string> busy;
   for (const grove::Task& task : now.tasks()) busy.insert(task.agents.begin(), task.agents.end());

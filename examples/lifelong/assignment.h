@@ -13,20 +13,20 @@
 
 namespace lifelong {
 
-// Pairs of a robot's id and its errand.
+// Pairs of a robot's id and the errand that is assigned to it.
 using Given = std::vector<std::pair<std::string, Errand>>;
 
-// Greedy assignment: the oldest errand first, each to the nearest robot without a task. An errand
-// on a cell that is another robot's current task waits, because a robot rests at its last task
-// until it gets a new one.
+// Greedy assignment in order of arrival at add(): each open errand goes to the nearest robot
+// without a task. An errand on the cell of a current task stays open, because the robot with that
+// task rests there until it gets a new task.
 class Assignment {
  public:
   explicit Assignment(grove::World world) : world_(std::move(world)) {}
 
   void add(const Errand& errand) { open_.push_back(errand); }
 
-  // Assigns errands to the idle robots of `now`. Each robot of `now` has at most one task. Assigned
-  // errands are removed from the open ones.
+  // Assigns open errands to the robots in `now` that have no task, and removes them from the open
+  // errands. Each robot in `now` must have at most one task.
   Given give(const grove::Instance& now);
 
  private:

@@ -16,8 +16,8 @@ std::vector<grove::Cell> passable_cells(const grove::World& world) {
   return cells;
 }
 
-// Returns a number below `bound`. (The distributions of the standard library differ between
-// implementations.)
+// Returns a random number below `bound`. Does not use the distributions of the standard library,
+// because their results differ between implementations.
 std::size_t draw(std::mt19937_64& random, std::size_t bound) {
   return static_cast<std::size_t>(random() % bound);
 }

@@ -8,18 +8,18 @@
 
 namespace lifelong {
 
-// A robot must visit the cell once, at step `arrives` or later.
+// One robot must visit the cell, at time step `arrives` or later.
 struct Errand {
   int id = 0;
   int arrives = 0;
   grove::Cell cell = {};
 };
 
-// Returns `count` errands on passable cells, at uniformly random times below `steps`, in order of
-// time. The same seed gives the same errands.
+// Returns `count` errands on passable cells, in order of arrival. Arrival times are uniformly
+// random below `steps`. The same seed gives the same errands.
 std::vector<Errand> random_errands(const grove::World& world, int count, int steps,
                                    std::uint64_t seed);
-// Returns distinct passable cells as starts; fewer than `robots` if there are not enough cells.
+// Returns `robots` distinct passable cells as starts, or all passable cells if there are fewer.
 std::vector<grove::Cell> random_starts(const grove::World& world, int robots, std::uint64_t seed);
 
 }  // namespace lifelong

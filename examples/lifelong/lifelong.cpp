@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // grove-lifelong: a control loop around a Session. Errands arrive continuously. At each decision
-// the oldest ones are assigned to free robots, and the robots are re-planned.
+// the loop assigns open errands to robots without a task and re-plans.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -98,14 +98,14 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
 struct Report {
   int done = 0;
   int done_by_the_end_of_arrivals = 0;
-  long waited = 0;  // sum of the steps from arrival to visit
+  long waited = 0;  // sum over all errands of the steps from arrival to visit
   int last = 0;
   int decisions = 0;
   int without_plan = 0;
-  std::vector<double> seconds;  // of each decision
+  std::vector<double> seconds;  // computation time of each decision
 };
 
-// All robots at their starts, without tasks.
+// Returns the instance with all robots at their starts and no tasks.
 grove::Instance idle_instance(const grove::World& world, const Arguments& arguments) {
   std::vector<grove::Agent> robots;
   for (const grove::Cell cell :
@@ -131,7 +131,7 @@ class Loop {
                                 static_cast<std::uint64_t>(arguments.seed))),
         assignment_(world),
         session_(idle_instance(world, arguments)) {
-    session_.replan();  // no robot moves
+    session_.replan();  // gives a plan in which no robot moves
   }
 
   Report run() {
@@ -154,7 +154,7 @@ class Loop {
     const double left = std::max(0.0, arguments_.think_s - seconds_since(start));
     const bool is_planned = session_.replan({.omega = kOmega, .time_limit = left}).plan.has_value();
     if (!is_planned) drop_tasks(given);
-    // Adapts the number of new errands per decision to what is planned within the time.
+    // Adapts the number of new errands per decision to the number that can be planned in time.
     at_once_ =
         is_planned ? at_once_ + at_once_ / 4 + 1 : std::max<std::size_t>(1, given.size() / 2);
     at_once_ = std::min<std::size_t>(at_once_, static_cast<std::size_t>(arguments_.robots));
@@ -172,13 +172,14 @@ class Loop {
     session_.change(change);
   }
 
-  // Returns all but the first `kept` errands to the open ones.
+  // Keeps the first `kept` assignments and returns the other errands to the open errands.
   void return_excess(Given& given, std::size_t kept) {
     for (std::size_t i = kept; i < given.size(); ++i) assignment_.add(given[i].second);
     given.resize(std::min(kept, given.size()));
   }
 
-  // If no plan was found in time, the robots continue without the new errands.
+  // Removes the new errands after no plan was found in time, so that the robots continue without
+  // them. The errands become open again.
   void drop_tasks(const Given& given) {
     ++report_.without_plan;
     grove::Change change;
@@ -194,7 +195,8 @@ class Loop {
       throw std::runtime_error("no plan within a minute, although there was one before");
   }
 
-  // Advances all robots by one step. A visited task is no longer part of the instance.
+  // Advances all robots by one time step, and counts the tasks that thereby leave the instance as
+  // done.
   void step() {
     session_.advance(1);
     const grove::Instance left = session_.instance();
@@ -214,10 +216,10 @@ class Loop {
   const std::vector<Errand> errands_;
   std::size_t next_ = 0;
   Assignment assignment_;
-  std::size_t at_once_ = 1'000'000;  // max errands per decision
+  std::size_t at_once_ = 1'000'000;  // maximum number of new errands per decision
   grove::Session session_;
   int now_ = 0;
-  std::map<std::string, int> arrived_;  // arrival times of the tasks that robots have
+  std::map<std::string, int> arrived_;  // by task of a robot: arrival time of the errand
   Report report_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The library in forty lines: a world, an instance, a plan with a proven bound, and a new plan
-// after a robot is delayed and a task is added.
+// A minimal program with the library: a world, an instance, a plan with a proven bound, and a new
+// plan after a robot was delayed and a task was added.
 #include <cstdio>
 #include <grove/grove.hpp>
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""From an ASCII warehouse to an animated plan: warehouse.html, and warehouse.gif to put anywhere."""
+"""Turns a warehouse drawn in ASCII into an animated plan: warehouse.html, and warehouse.gif for documents."""
 import grove
 
 world = grove.World("""

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Exceptions of the library. It also throws std::bad_alloc.
+/// Exceptions that the library throws, in addition to std::bad_alloc.
 #pragma once
 
 #include <stdexcept>
@@ -10,8 +10,9 @@
 
 namespace grove {
 
-/// Base class of the exceptions below. Thrown itself, it reports an internal error of the search.
-/// what() is one line of text for people.
+/// Base class of the exceptions below. An exception of exactly this type reports an internal error
+/// of the search or, from grove::mpi, a failure of MPI or of other ranks. what() is a one-line
+/// message for people.
 class GROVE_API Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;   ///< From the text of what().
@@ -20,8 +21,8 @@ class GROVE_API Error : public std::runtime_error {
   ~Error() override;
 };
 
-/// A file, or the text of a file, is invalid or cannot be read or written. what() is "FILE: PLACE:
-/// what is wrong; expected WHAT".
+/// Thrown if a file, or the text of a file, is invalid or cannot be read or written. what() is
+/// "FILE: PLACE: what is wrong; expected WHAT"; PLACE and the expectation can be absent.
 class GROVE_API InputError : public Error {
  public:
   using Error::Error;                                  ///< From the text of what().
@@ -30,15 +31,17 @@ class GROVE_API InputError : public Error {
   ~InputError() override;
 };
 
-/// An argument (world, instance, plan, change or option) is invalid.
+/// Thrown if an argument (world, instance, plan, change or option) is invalid.
 class GROVE_API InvalidArgument : public Error {
  public:
-  /// what() is "FIELD: MESSAGE", for example "/omega: expected a number from 0".
+  /// Constructs an exception whose what() is "FIELD: MESSAGE", for example "/threads: found 0;
+  /// expected from 1 to 1024", or only MESSAGE if `field` is empty.
   InvalidArgument(std::string field, const std::string& message);
   InvalidArgument(const InvalidArgument&) = default;             ///< Copy constructor.
   InvalidArgument& operator=(const InvalidArgument&) = default;  ///< Copy assignment.
   ~InvalidArgument() override;
-  /// JSON Pointer to the invalid value: "/agents/2/goal", "/omega"; empty: the whole argument.
+  /// JSON Pointer to the invalid value ("/agents/2/goal", "/omega"). Empty: the whole argument is
+  /// invalid.
   const std::string& field() const noexcept { return field_; }
 
  private:

@@ -3,7 +3,7 @@
 /// Symbol visibility of the shared library.
 #pragma once
 
-/// Marks a symbol of the public API.
+/// Gives a symbol of the public API default visibility, so that the shared library exports it.
 #if defined(_WIN32) || defined(__CYGWIN__)
 #define GROVE_API
 #else

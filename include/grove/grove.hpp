@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The public API of Grove: this header includes all of it. Only this API is kept stable.
+/// The public API of Grove. This header includes all of it except grove/mpi.hpp. Only the public
+/// API is kept stable.
 ///
 ///     #include <grove/grove.hpp>
 ///
@@ -17,10 +18,10 @@
 /// Units: cells or metres for places, time steps for plans, seconds for clocks, bytes for memory.
 /// Ownership: values are copied. Copies of a World or an Instance share their data, which lives as
 /// long as the last copy.
-/// Threads: functions are thread-safe. An object that is not immutable may be used by one thread at
-/// a time.
-/// Errors: functions throw the exceptions of error.hpp. No function prints, ends the process or
-/// asks for input.
+/// Threads: functions are thread-safe. Objects are used by one thread at a time, except immutable
+/// ones.
+/// Errors: functions throw the exceptions of error.hpp. No function prints, asks for input or ends
+/// the process.
 #pragma once
 
 #include "grove/error.hpp"
@@ -31,5 +32,5 @@
 #include "grove/version.hpp"
 #include "grove/world.hpp"
 
-/// The library. Names in grove::detail are internal.
+/// The namespace of the library. Names in grove::detail are internal.
 namespace grove {}

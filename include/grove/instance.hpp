@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// CTS-MAPF instances: robots, the tasks that each of them must visit in an order that the solver
-/// chooses, and destinations.
+/// CTS-MAPF instances: agents (robots) with starts and destinations, and the tasks that each agent
+/// must visit in an order that the solver chooses.
 #pragma once
 
 #include <cstddef>
@@ -18,51 +18,53 @@
 
 namespace grove {
 
-/// A task that a robot is executing at time 0.
+/// A task that an agent is executing at time 0.
 struct WorkBegun {
-  std::string task = {};  ///< Id of a task of this robot, at the place where the robot starts.
-  int done = 0;           ///< Steps that are done, from 0 to the duration of the task - 1.
+  std::string task = {};  ///< Id of a task of this agent, at its start and with a duration.
+  int done = 0;           ///< Time steps executed so far, from 0 to the task's duration - 1.
 };
 
-/// A robot.
+/// An agent: one robot.
 struct Agent {
   std::string id = {};  ///< Unique among agents; not empty.
-  Pose start = {};      ///< Pose at time 0. No two agents start at the same place.
-  /// Destination; no two agents have the same. std::nullopt: the agent ends on the task that it
-  /// visits last; without tasks it may end anywhere, so it can make way for others.
+  Pose start = {};      ///< Pose at time 0. No two agents have the same start place.
+  /// Destination; no two agents have the same. std::nullopt: the agent ends at the place of one of
+  /// its own tasks or, without tasks, at any place, so that it can make way for others.
   std::optional<Place> goal = std::nullopt;
-  /// Time steps of a quarter turn, for a robot that moves only in the direction of its heading; 0:
-  /// it moves in any direction. Above 0 only on grids.
+  /// Time steps that a quarter turn takes, for an agent that moves only in the direction of its
+  /// heading. 0: it moves in any direction. Must be 0 on roadmaps.
   int turn_steps = 0;
-  std::optional<Heading> goal_heading = std::nullopt;  ///< Heading at rest; std::nullopt: any.
-  std::optional<WorkBegun> working = std::nullopt;     ///< Task in execution at time 0.
+  std::optional<Heading> goal_heading = std::nullopt;  ///< Heading at `goal`; std::nullopt: any.
+  std::optional<WorkBegun> working = std::nullopt;     ///< Task in progress at time 0.
 };
 
-/// A place that each of the given robots must visit.
+/// A place that each agent of a list must visit at least once, at any time from 0 on.
 struct Task {
   std::string id = {};                   ///< Unique among tasks; not empty.
   Place place = {};                      ///< A cell or a vertex. Tasks may share a place.
-  std::vector<std::string> agents = {};  ///< Ids of the agents that must visit it; at least one.
-  int duration = 0;                      ///< Time steps of execution; 0: a visit is enough.
+  std::vector<std::string> agents = {};  ///< Ids of the agents that must visit it, distinct, >= 1.
+  int duration = 0;  ///< Time steps that its execution takes; 0: a visit is enough.
 };
 
-/// Rules for all robots.
+/// Rules of motion for all agents.
 struct Rules {
-  /// Whether a robot may enter a place in the time step in which another robot leaves it.
+  /// True: an agent may enter a place in the time step in which another agent leaves it.
   bool following = true;
 };
 
-/// A valid instance. Immutable: any thread may use it. Copies are cheap, because they share the
+/// A valid instance. Immutable: any thread may read it. Copies are cheap, because they share the
 /// data.
 class GROVE_API Instance {
  public:
-  /// Throws InvalidArgument with field() "/agents/<i>/..." or "/tasks/<i>/...".
+  /// Throws InvalidArgument if the arguments are no valid instance. field() is "/agents" or
+  /// "/agents/<i>/...", "/tasks/<i>/...", or "/map" or "/roadmap" if motion and durations do not
+  /// suit the world.
   Instance(World world, std::vector<Agent> agents, std::vector<Task> tasks, Rules rules = {});
 
   World world() const;                       ///< Grid or roadmap.
-  const std::vector<Agent>& agents() const;  ///< In the order given; valid as long as this object.
-  const std::vector<Task>& tasks() const;    ///< In the order given; valid as long as this object.
-  Rules rules() const;                       ///< Rules for all robots.
+  const std::vector<Agent>& agents() const;  ///< In the order given; lives as long as any copy.
+  const std::vector<Task>& tasks() const;    ///< In the order given; lives as long as any copy.
+  Rules rules() const;                       ///< Rules of motion for all agents.
 
  private:
   friend struct Access;
@@ -71,13 +73,14 @@ class GROVE_API Instance {
   std::shared_ptr<const Data> data_;
 };
 
-/// Restrictions for untrusted files; see read_instance().
+/// Restrictions for untrusted files and texts; see read_instance() and parse_instance().
 struct Trust {
-  /// Refuses a file that names a map or roadmap outside its own directory, by an absolute path, by
-  /// `..` or by a symbolic link.
+  /// True: refuses a file that names its map or roadmap by an absolute path, or outside its own
+  /// directory by `..` or a symbolic link.
   bool confine = false;
-  /// Limit in bytes on the map and the states of the robots on it. A file that needs more is
-  /// refused before the memory is allocated. std::nullopt: no limit.
+  /// Limit, in bytes, on the memory for the map and the states of the agents on it. A file that
+  /// needs more is refused before the memory is allocated; 64 MiB are always granted. std::nullopt:
+  /// no limit.
   std::optional<std::size_t> memory_limit = std::nullopt;
 };
 
@@ -85,27 +88,30 @@ struct Trust {
 /// to `warnings` unless it is nullptr. Throws InputError.
 GROVE_API Instance read_instance(const std::filesystem::path& path,
                                  std::vector<std::string>* warnings = nullptr);
-/// The same with restrictions, for untrusted files.
+/// Reads a file like the overload above, under the restrictions of `trust`. Throws InputError.
 GROVE_API Instance read_instance(const std::filesystem::path& path, const Trust& trust,
                                  std::vector<std::string>* warnings = nullptr);
-/// The same for the text of such a file. The path of the map is relative to `folder`.
+/// Parses the text of a `*.cts.json` file and reads the map or roadmap that it names by a path
+/// relative to `folder`. Appends warnings like read_instance(). Throws InputError.
 GROVE_API Instance parse_instance(std::string_view text, const std::filesystem::path& folder = ".",
                                   std::vector<std::string>* warnings = nullptr);
-/// The same with restrictions, for untrusted texts.
+/// Parses a text like the overload above, under the restrictions of `trust`. Throws InputError.
 GROVE_API Instance parse_instance(std::string_view text, const std::filesystem::path& folder,
                                   const Trust& trust, std::vector<std::string>* warnings = nullptr);
-/// Reads the agents and tasks of such a file, `{"agents": [...], "tasks": [...]}`, for the given
-/// world. Throws InputError.
+/// Parses only the agents and tasks of such a text, `{"agents": [...], "tasks": [...]}`, and places
+/// them on `world`. Throws InputError.
 GROVE_API Instance parse_instance(std::string_view text, const World& world, Rules rules = {});
-/// Returns the agents and tasks as the text that parse_instance() reads with the same world.
+/// Returns the agents and tasks as a JSON text, which parse_instance(text, world) reads. The text
+/// contains neither the world nor the rules.
 GROVE_API std::string instance_text(const Instance& instance);
-/// Returns the classical MAPF instance of the first `agents` rows of a Moving AI scenario, as
-/// agents a0, a1, ... Throws InputError.
+/// Returns the classical MAPF instance of the first `agents` rows of a Moving AI scenario. The
+/// agents are named a0, a1, ... in row order. Throws InputError.
 GROVE_API Instance read_scenario(const std::filesystem::path& scenario,
                                  const std::filesystem::path& map, int agents);
-/// Writes a `*.cts.json` file and, in the same directory, its map or roadmap (`STEM.map`,
-/// `STEM.roadmap.json`). Each file is written completely or not at all. Rules are not written,
-/// because they are not part of instance files. Throws InputError.
+/// Writes a `*.cts.json` file and, in the same directory, its map or roadmap (`STEM.map` or
+/// `STEM.roadmap.json`, where STEM is the file name up to its first dot). Each file is written
+/// completely or not at all. Rules are not written, because they are not part of instance files.
+/// Throws InputError.
 GROVE_API void write_instance(const std::filesystem::path& path, const Instance& instance);
 
 }  // namespace grove

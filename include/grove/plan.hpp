@@ -16,35 +16,35 @@
 
 namespace grove {
 
-/// Execution of a task by a robot.
+/// Execution of a task with a duration by an agent.
 struct Work {
   std::string task = {};  ///< Id of the task.
-  int begin = 0;          ///< Time at which it begins; negative if it began before time 0.
-  int end = 0;            ///< Time at which it is complete.
+  int begin = 0;          ///< Start time; negative if the execution started before time 0.
+  int end = 0;            ///< Time of completion: `begin` + duration of the task.
 };
 
-/// Plan of one robot.
+/// Plan of one agent.
 struct AgentPlan {
-  std::string id = {};                  ///< Id of the agent.
-  int cost = 0;                         ///< Finish time: it rests from then on, all tasks done.
-  std::vector<Pose> path = {};          ///< Poses at times 0, ..., cost; it stays in the last one.
-  std::vector<std::string> tasks = {};  ///< Ids of its tasks in order of completion.
-  std::vector<Work> work = {};          ///< Execution of its tasks with a duration.
+  std::string id = {};          ///< Id of the agent.
+  int cost = 0;                 ///< Finish time: it rests from then on, with all tasks done.
+  std::vector<Pose> path = {};  ///< Poses at times 0, ..., cost (cost + 1 entries).
+  std::vector<std::string> tasks = {};  ///< Ids of its tasks, in an order of completion.
+  std::vector<Work> work = {};          ///< One entry for each of its tasks with a duration.
 };
 
-/// Plan of all robots.
+/// Plan of all agents.
 struct Plan {
-  std::int64_t cost = 0;               ///< Sum of the robots' costs, in time steps.
+  std::int64_t cost = 0;               ///< Sum of the agents' costs, in time steps.
   std::vector<AgentPlan> agents = {};  ///< In the order of the instance.
 
-  /// Returns the pose of robot number `agent`, from 0, at `time` >= 0. After the end of its path,
-  /// which must not be empty, it rests there. Throws std::out_of_range if there is no such robot.
+  /// Returns the pose of agents[agent] at `time` >= 0; after the end of its path, the last pose.
+  /// The path must not be empty. Throws std::out_of_range if `agent` >= agents.size().
   const Pose& pose(std::size_t agent, int time) const {
     const std::vector<Pose>& path = agents.at(agent).path;
     const auto t = static_cast<std::size_t>(time);
     return t < path.size() ? path[t] : path.back();
   }
-  /// Time from which all robots rest.
+  /// Returns the earliest time from which all agents rest: the maximum of their costs.
   int makespan() const {
     int most = 0;
     for (const AgentPlan& agent : agents) most = agent.cost > most ? agent.cost : most;
@@ -52,73 +52,80 @@ struct Plan {
   }
 };
 
-/// What a run has proven.
+/// Outcome of a run: what it has proven about its plan and the instance.
 enum class Status : std::uint8_t {
   optimal,     ///< The plan has minimum cost.
-  bounded,     ///< The plan costs at most 1 + omega times the lower bound.
-  feasible,    ///< The plan is valid; it may cost more than that.
-  infeasible,  ///< There is no plan.
-  unknown,     ///< A limit was reached before there was a plan.
+  bounded,     ///< The plan costs at most (1 + omega) times the lower bound.
+  feasible,    ///< The plan is valid, but the bound does not prove that it is within omega.
+  infeasible,  ///< Proven: no plan exists.
+  unknown,     ///< A limit was reached before a plan was found.
 };
 
-/// Returns "optimal", "bounded", ...: the text of plan files.
+/// Returns the name of the status in plan files: "optimal", "bounded", ...
 GROVE_API std::string_view to_string(Status status);
 
 /// Result of a run.
 struct Solution {
   Status status = Status::unknown;  ///< What the run has proven.
-  std::optional<Plan> plan = {};    ///< If the status is optimal, bounded or feasible.
-  /// Proven: no plan costs less. Also valid after a limit was reached. Meaningless if infeasible.
+  std::optional<Plan> plan = {};    ///< Set if the status is optimal, bounded or feasible.
+  /// Proven: no plan costs less, in time steps. Also valid after a limit was reached. Meaningless
+  /// if the status is infeasible.
   std::int64_t lower_bound = 0;
   double omega = 0;  ///< The requested tolerance.
-  /// Counters of the search, with the names of `stats` in plan files: "nodes_expanded".
+  /// Integer statistics of the search, by their names in `stats` of plan files: "nodes_expanded".
   std::map<std::string, std::int64_t> counts = {};
-  std::map<std::string, double> measures = {};  ///< The same, real numbers: "wall_s".
-  /// The same, texts: "stopped_by", the limit that ended the run; "reason", why there is no plan.
+  std::map<std::string, double> measures = {};  ///< Real-valued statistics: "wall_s".
+  /// Textual statistics: "stopped_by", the limit that ended the run; "reason", why no plan exists.
   std::map<std::string, std::string> texts = {};
-  /// False: plan and bound are for the rule that no agent enters a place in the time step in which
-  /// another agent leaves it (Rules::following).
+  /// Rules::following of the run. False: the plan has no following conflict, and the bound holds
+  /// only for plans without following conflicts.
   bool following = true;
 
-  /// Returns (cost - lower bound) / lower bound: the plan costs at most this part more than an
-  /// optimal plan. std::nullopt without a plan, or if the bound is 0 and the cost is not.
+  /// Returns (cost - lower bound) / lower bound, or 0 if both are 0. The plan costs at most (1 +
+  /// gap) times the cost of an optimal plan. Returns std::nullopt if there is no plan, or if the
+  /// lower bound is 0 and the cost is above 0.
   GROVE_API std::optional<double> gap() const;
 };
 
-/// An error in a plan.
+/// An error in a plan or in the claims of a solution.
 struct Violation {
   /// JSON Pointer (RFC 6901) into the plan file: "/agents/0/path/7".
   std::string json_pointer = {};
-  std::string message = {};  ///< One line of text for people.
-  std::string place = {};    ///< \deprecated Equal to json_pointer; removed in 0.2.
+  std::string message = {};  ///< One-line message for people.
+  std::string place = {};    ///< \deprecated Equal to json_pointer; will be removed in 0.2.
 };
 
-/// Returns the errors of a plan, at most `limit`; empty: the plan is valid. The checker recomputes
-/// everything from instance and plan; it shares with the search only the representation of worlds
-/// and poses. Throws InvalidArgument for places and ids that do not exist.
+/// Returns the errors in a plan, at most `limit`; empty: the plan is valid. The checker recomputes
+/// everything from instance and plan. It shares with the search only the representation of worlds
+/// and poses. Throws InvalidArgument if the plan does not list the agents of the instance in their
+/// order, or names a place or a task that does not exist.
 GROVE_API std::vector<Violation> check(const Instance& instance, const Plan& plan,
                                        std::size_t limit = 20);
-/// The same, with the claims of the solution: cost, bound and status.
+/// Returns the errors in the plan and in the claims of a solution (status, cost and lower bound,
+/// against each other and omega), at most `limit`. It cannot verify the lower bound itself. Throws
+/// InvalidArgument as above.
 GROVE_API std::vector<Violation> check(const Instance& instance, const Solution& solution,
                                        std::size_t limit = 20);
 
-/// Returns the plan with the given paths, in the order of the instance: the places of each robot at
-/// times 0, 1, ... Computes costs and orders of tasks; does not check the plan. Throws
-/// InvalidArgument for places that do not exist, and for instances with turning robots or task
-/// durations, because there the places do not determine the actions.
+/// Returns the plan with the given paths. `paths` has one path per agent, in the order of the
+/// instance: its places at times 0, 1, ... Computes the costs and the order of the tasks, but does
+/// not check the plan. Throws InvalidArgument if the number of paths is wrong, for places that do
+/// not exist, and for instances with turning agents or task durations, because their plans are not
+/// determined by places alone.
 GROVE_API Plan plan_from_paths(const Instance& instance,
                                const std::vector<std::vector<Place>>& paths);
 
-/// Reads a plan file of this instance. The claims of the file are not verified; use check(). Throws
-/// InputError.
+/// Reads a plan file for `instance`. Does not verify the plan or its claims; for that, use check().
+/// Throws InputError.
 GROVE_API Solution read_plan(const std::filesystem::path& path, const Instance& instance);
-/// The same for the text of such a file.
+/// Parses the text of a plan file like read_plan(). Throws InputError.
 GROVE_API Solution parse_plan(std::string_view text, const Instance& instance);
-/// Writes a plan file, completely or not at all. Throws InputError if it cannot be written, and
-/// InvalidArgument if check() finds an error.
+/// Writes a plan file, completely or not at all. Throws InputError if the file cannot be written,
+/// and InvalidArgument if check() finds an error.
 GROVE_API void write_plan(const std::filesystem::path& path, const Instance& instance,
                           const Solution& solution);
-/// Returns the text that write_plan() writes. Throws InvalidArgument if check() finds an error.
+/// Returns the content of the file that write_plan() writes. Throws InvalidArgument if check()
+/// finds an error.
 GROVE_API std::string plan_text(const Instance& instance, const Solution& solution);
 
 }  // namespace grove

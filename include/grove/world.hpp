@@ -20,35 +20,35 @@ namespace grove {
 struct Cell {
   int x = 0;  ///< Column, from 0.
   int y = 0;  ///< Row, from 0; grows downwards.
-  /// True for the same cell.
+  /// True for equal members.
   friend bool operator==(const Cell&, const Cell&) = default;
 };
 
 /// A vertex of a roadmap.
 struct Vertex {
   std::string id = {};  ///< Id of the vertex.
-  /// True for the same vertex.
+  /// True for equal members.
   friend bool operator==(const Vertex&, const Vertex&) = default;
 };
 
 /// A place on a road between two vertices.
 struct OnRoad {
-  std::string from = {};  ///< Id of the vertex from which the steps count.
+  std::string from = {};  ///< Id of the vertex from which `steps` counts.
   std::string to = {};    ///< Id of the vertex at the other end.
-  int steps = 0;          ///< Time steps from `from`, from 1 to the length of the road - 1.
-  /// Index of the road in the roadmap, from 0; required if several roads join the two vertices.
+  int steps = 0;  ///< Distance from `from` in time steps, from 1 to the length of the road - 1.
+  /// Index in World::edges() of the road; required if several roads join the two vertices.
   std::optional<int> edge = std::nullopt;
   /// True for equal members. (The same place can be described from either end.)
   friend bool operator==(const OnRoad&, const OnRoad&) = default;
 };
 
-/// Place of a robot or a task: a Cell on a grid; a Vertex or an OnRoad on a roadmap.
+/// Place of an agent or a task: a Cell on a grid; a Vertex or an OnRoad on a roadmap.
 using Place = std::variant<Cell, Vertex, OnRoad>;
 
-/// Returns the text of plan files: [3, 1], ["A"], ["A", "B", 2].
+/// Returns the place as in plan files, without an edge index: [3, 1], ["A"], ["A", "B", 2].
 GROVE_API std::string to_string(const Place& place);
 
-/// Direction in which a turning robot faces.
+/// Direction in which a turning agent faces.
 enum class Heading : std::uint8_t {
   north,  ///< Up: towards smaller y.
   east,   ///< Right: towards greater x.
@@ -56,13 +56,13 @@ enum class Heading : std::uint8_t {
   west,   ///< Left: towards smaller x.
 };
 
-/// Place and, for robots that turn, heading of a robot.
+/// Place and, if it turns (Agent::turn_steps > 0), heading of an agent.
 struct Pose {
   Place place = {};                                  ///< Place.
-  std::optional<Heading> heading = std::nullopt;     ///< Only of robots that turn.
-  std::optional<Heading> turning_to = std::nullopt;  ///< During a quarter turn: the new heading.
-  int turn_steps_done = 0;  ///< Time steps of this quarter turn that are done.
-  /// True for the same place and heading.
+  std::optional<Heading> heading = std::nullopt;     ///< Set only for agents that turn.
+  std::optional<Heading> turning_to = std::nullopt;  ///< Within a quarter turn: its target heading.
+  int turn_steps_done = 0;  ///< Time steps of that turn done so far; 0 outside a turn.
+  /// True for equal members.
   friend bool operator==(const Pose&, const Pose&) = default;
 };
 
@@ -81,19 +81,21 @@ struct RoadmapEdge {
   bool one_way = false;   ///< True: only from `from` to `to`.
 };
 
-/// A grid or a roadmap. Immutable: any thread may use it. Copies are cheap, because they share the
-/// data and everything that was computed for it.
+/// A grid or a roadmap. Immutable: any thread may read it. Copies are cheap, because they share the
+/// data.
 class GROVE_API World {
  public:
   /// Returns a grid. `passable` has width * height entries, row by row from the top. Throws
-  /// InvalidArgument.
+  /// InvalidArgument if the sizes are invalid or do not match.
   static World grid(int width, int height, const std::vector<bool>& passable);
   /// Returns a grid from rows of equal length, top row first. '.' and ' ' are passable; '@', '#',
-  /// 'T', 'O' and 'W' are blocked. Throws InvalidArgument.
+  /// 'T', 'O' and 'W' are blocked. Throws InvalidArgument, with field() "/<i>" if row i is invalid.
   static World from_rows(const std::vector<std::string>& rows);
-  /// Returns a roadmap of at least one vertex. Throws InvalidArgument.
+  /// Returns a roadmap of at least one vertex. Throws InvalidArgument for invalid vertices or
+  /// roads.
   static World roadmap(std::vector<RoadmapVertex> vertices, std::vector<RoadmapEdge> edges);
-  /// Reads a Moving AI map (`*.map`) or a roadmap (`*.roadmap.json`). Throws InputError.
+  /// Reads a roadmap if the file name ends in `.json`, otherwise a Moving AI map. Throws
+  /// InputError.
   static World read(const std::filesystem::path& path);
 
   bool is_grid() const;                         ///< False: a roadmap.

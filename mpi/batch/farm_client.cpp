@@ -12,10 +12,10 @@
 namespace grove::detail::batch {
 namespace {
 
-constexpr int kMaster = 0;  // of the world
-constexpr int kLeader = 0;  // of the group
+constexpr int kMaster = 0;  // rank in the world
+constexpr int kLeader = 0;  // rank in the group
 
-// The text of the error, never empty.
+// Returns the text of the error, never empty.
 std::string error_text(const std::exception& error) {
   const std::string text = one_line(error.what());
   return text.empty() ? "unknown error" : text;
@@ -57,7 +57,7 @@ void FarmClient::run_as_master() {
   }
 }
 
-// Returns nullopt if there is no more work.
+// Requests and returns the next instance. Returns nullopt if the master assigns no more instances.
 std::optional<Entry> FarmClient::next_entry() {
   tell_master(RequestWork{});
   for (;;) {
@@ -69,7 +69,7 @@ std::optional<Entry> FarmClient::next_entry() {
     } else if (std::holds_alternative<NoMoreWork>(*message)) {
       return std::nullopt;
     } else {
-      interrupted_ = true;  // a Stop that came after the instance was done
+      interrupted_ = true;  // a Stop that arrived after the instance was done
     }
   }
 }
@@ -85,7 +85,7 @@ Row FarmClient::solve(const Entry& entry) {
   } catch (const std::exception& error) {
     row.outcome = {.error = error_text(error)};
   }
-  if (broken_) std::rethrow_exception(broken_);  // not an error of the instance
+  if (broken_) std::rethrow_exception(broken_);  // an error of poll(), not of the instance
   row.outcome.version = options_.version;
   row.wall_s = options_.clock.seconds() - start;
   row.ended_at = options_.clock.utc();

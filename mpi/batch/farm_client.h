@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A rank of a batch: solves with its group the instances that the master assigns.
+// Client of the task farm: a rank that, with its group, solves the instances that the master
+// assigns.
 #pragma once
 
 #include <atomic>
@@ -16,39 +17,38 @@
 
 namespace grove::detail::batch {
 
-// Solves an instance. Called on all ranks of the group together. Only the `row` of the leader, rank
-// 0 of the group, counts: it gets the facts of the instance, the outcome and the plan file. The
-// plan file is written before the function returns. The function must call `poll` about every
-// millisecond, from the thread that called it, and must pass on what `poll` throws. A
-// std::exception on any rank makes a row with that error. Ranks that wait for a rank that threw
-// must detect this themselves (gather.h). No rank begins the next instance before all ranks of its
-// group have ended this one.
+// Solves an instance. The client calls the function on all ranks of the group. On the leader (rank
+// 0 of the group) the function fills `row` with the facts of the instance, the outcome and the name
+// of the plan file, and writes the plan file before it returns; on other ranks `row` is ignored.
+// The function must call `poll` about every millisecond, on the thread that called it, and must
+// pass on what `poll` throws. If it throws a std::exception on any rank, the row records that
+// error. Ranks that wait for a rank that threw must detect this themselves (gather.h). No rank
+// starts the next instance before all ranks of its group have ended this one.
 using Solve = std::function<void(const Entry& entry, Row& row, const std::function<void()>& poll)>;
 
 struct ClientOptions {
   Solve solve;
-  Settings settings = {};  // of all runs
-  int threads = 1;         // threads of this rank, for the rows
+  Settings settings = {};  // settings of all runs
+  int threads = 1;         // number of threads of this rank, for the rows
   std::string version = {};
   std::string machine = {};
   BatchClock clock;
-  std::function<void()> idle;  // called while there is nothing to do; it may sleep for a moment
+  std::function<void()> idle;  // called while there is nothing to do; may sleep briefly
 };
 
-// One thread at a time.
+// Runs the client side of the farm on one rank. One thread at a time.
 class FarmClient {
  public:
-  // `world` connects all ranks, `group` those of this rank's group (Grouping), in the same order.
-  // Only the farm uses them, so `options.solve` needs a transport of its own. `interrupted` is the
-  // flag that this rank's signal handler sets and that its search polls. The client sets it when
-  // the master sends Stop. `master` is the one on this rank; nullptr on all ranks except 0. All
+  // `world` connects all ranks, `group` the ranks of this rank's group (Grouping), in the same
+  // order. No other code may use these transports, so `options.solve` needs one of its own.
+  // `interrupted` is the flag that this rank's signal handler sets and its search polls; the client
+  // sets it when the master sends Stop. `master`: the master if this is rank 0, else nullptr. All
   // arguments must outlive this.
   FarmClient(Transport& world, Transport& group, std::atomic<bool>& interrupted,
              ClientOptions options, FarmMaster* master);
 
-  // Returns when this rank has received NoMoreWork; on the rank of the master, when the master is
-  // done too. Every message sent to this rank has been received then. Throws what the master
-  // throws.
+  // Returns when this rank has received NoMoreWork and, on rank 0, the master is done. By then this
+  // rank has received every message sent to it. Throws what the master throws.
   void run();
 
  private:

@@ -7,7 +7,7 @@
 namespace grove::detail::batch {
 namespace {
 
-constexpr double kCsvInterval_s = 10;  // the whole file is written each time
+constexpr double kCsvInterval_s = 10;  // between writes of the CSV file, which write all rows
 
 std::vector<Run> runs_of(const std::vector<Entry>& entries, const Settings& settings) {
   std::vector<Run> runs;
@@ -86,7 +86,8 @@ void FarmMaster::send(int leader, FarmMessage message) {
   }
 }
 
-// Sends Stop to the groups, because a signal may have reached only some ranks.
+// If interrupted, sends Stop to all groups in progress, because a signal possibly reached only some
+// ranks.
 void FarmMaster::stop_if_interrupted() {
   if (stopping_ || !interrupted_) return;
   stopping_ = true;

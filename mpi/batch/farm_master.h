@@ -32,41 +32,41 @@ struct Grouping {
 };
 
 struct MasterOptions {
-  Settings settings;  // of all runs
-  // Seconds since the construction of the master. After that no instance is assigned, and instances
-  // in progress continue.
+  Settings settings;  // settings of all runs
+  // Seconds from the construction of the master after which it assigns no further instance.
+  // Instances in progress continue.
   double total_time_limit_s = std::numeric_limits<double>::infinity();
   // Called at every poll(); may be empty.
   std::function<void(const BatchState&)> watch = {};
 };
 
-// Lives on rank 0 of the world, together with that rank's FarmClient, which polls it and through it
-// receives all messages to that rank. Instances are assigned one at a time, in the order of the
-// table, to the group that requests work. A row is on disk before its group gets the next instance.
-// When `interrupted` is set, here or at a leader, no more instances are assigned, and the groups
-// with an instance in progress are sent Stop. An instance that a group then aborts leaves no row.
-// One thread at a time.
+// Runs on rank 0 of the world. That rank's FarmClient calls poll(), and receives all messages to
+// that rank through the master. The master assigns one instance at a time, in the order of the
+// table, to a group that requests work. A row is on disk before its group gets the next instance.
+// When `interrupted` is set, here or at a leader, the master assigns no further instance and sends
+// Stop to the groups with an instance in progress. An instance that a group then aborts leaves no
+// row. One thread at a time.
 class FarmMaster {
  public:
-  // Begins `table` with `entries`. `world`, `table` and `interrupted` must outlive this.
+  // Starts `table` with `entries`. `world`, `table` and `interrupted` must outlive this.
   FarmMaster(Transport& world, Grouping grouping, std::vector<Entry> entries, ResultTable& table,
              std::atomic<bool>& interrupted, BatchClock clock, MasterOptions options);
 
-  // Handles all pending work and never waits for messages; a row costs a write to disk. Call this
-  // about every millisecond. Throws InputError if the table cannot be written, and std::logic_error
-  // if a leader violates the protocol.
+  // Handles the messages that have arrived and replies to them; never waits for messages. Writes
+  // each new row to disk. Must be called about every millisecond. Throws InputError if the table
+  // cannot be written, and std::logic_error if a leader violates the protocol.
   void poll();
-  // True if every group was sent NoMoreWork and the table is complete; then poll() is no longer
-  // needed.
+  // True if the master has sent NoMoreWork to every group and the table is complete. poll() is then
+  // no longer needed.
   bool done() const { return dismissed_ == grouping_.groups(); }
 
   BatchState state() const;
-  // Was the batch interrupted?
+  // True if the batch was interrupted.
   bool interrupted() const { return stopping_; }
-  // Number of instances without a row, neither a result nor an error.
+  // Number of instances that have no row yet, neither with a result nor with an error.
   int left() const { return state_.total - state_.done(); }
 
-  // The next message for the leader on this rank.
+  // Returns the next message for the leader on this rank, or nullopt if there is none.
   std::optional<FarmMessage> take_own_message();
 
  private:
@@ -105,7 +105,7 @@ class FarmMaster {
   std::vector<Row> finished_;            // rows not yet on disk
   std::deque<int> asking_;               // leaders that wait for an assignment
   std::deque<FarmMessage> own_;          // messages for the leader on this rank
-  BatchState state_;                     // only the fields that are counted
+  BatchState state_;                     // only the fields that count instances
   bool stopping_ = false;
   int dismissed_ = 0;
   double next_csv_s_ = 0;

@@ -12,7 +12,7 @@ void serialize(Archive& archive, Entry& entry) {
   archive(entry.id, entry.path, entry.map, entry.agents, entry.digest);
 }
 
-// A row travels as its line in the table.
+// A message contains a row as the row's line in the table.
 template <typename Archive>
 void save(Archive& archive, const Report& report) {
   archive(json_line(report.row));

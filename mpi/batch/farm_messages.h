@@ -22,16 +22,16 @@
 
 namespace grove::detail::batch {
 
-// The group is idle.
+// The group is idle and requests an instance.
 struct RequestWork {
   friend bool operator==(const RequestWork&, const RequestWork&) = default;
 };
-// The group has solved its assignment, or failed to.
+// The group has solved its assignment or failed to solve it.
 struct Report {
   Row row;
   friend bool operator==(const Report&, const Report&) = default;
 };
-// The group was interrupted; its assignment is left for another run.
+// The group was interrupted; a later run must solve its assignment.
 struct Aborted {
   friend bool operator==(const Aborted&, const Aborted&) = default;
 };
@@ -40,11 +40,11 @@ struct Assignment {
   Entry entry;
   friend bool operator==(const Assignment&, const Assignment&) = default;
 };
-// The run ends: abort the assignment.
+// The batch was interrupted: abort the assignment.
 struct Stop {
   friend bool operator==(const Stop&, const Stop&) = default;
 };
-// No more instances are assigned.
+// The master assigns no more instances; the receiver ends.
 struct NoMoreWork {
   friend bool operator==(const NoMoreWork&, const NoMoreWork&) = default;
 };
@@ -57,7 +57,7 @@ struct Ended {
 using FarmMessage = std::variant<RequestWork, Report, Aborted, Assignment, Stop, NoMoreWork, Ended>;
 
 std::string encode(const FarmMessage& message);
-// Throws std::invalid_argument if `bytes` is not a message.
+// Inverse of encode(). Throws std::invalid_argument if `bytes` is not an encoded message.
 FarmMessage decode(std::string_view bytes);
 
 }  // namespace grove::detail::batch

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rank 0 receives all texts and sends them to all ranks. So no rank can be a round ahead of a rank
-// that it receives from.
+// Rank 0 receives all texts and sends them to all ranks. Therefore a rank cannot receive a message
+// of a later call than its own.
 #include "mpi/batch/gather.h"
 
 #include <utility>

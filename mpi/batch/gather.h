@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All-gather among the ranks of a group, with polling.
+// All-gather among the ranks of a group, with a callback while it waits.
 #pragma once
 
 #include <functional>
@@ -10,9 +10,10 @@
 
 namespace grove::detail::batch {
 
-// Collective over `transport`: the text `mine` of each rank, by rank. Use it for an action that may
-// fail on some ranks only (reading a file, say), before a collective action. Nothing else may be
-// sent over `transport`. `wait` is called repeatedly until all ranks have called this.
+// Collective over `transport`. Returns the argument `mine` of each rank, by rank. Serves to report,
+// before a collective action, that an earlier action (such as reading a file) failed on some ranks.
+// Nothing else may be in transit on `transport`. Calls `wait` repeatedly until all ranks have
+// called this function.
 std::vector<std::string> gather(Transport& transport, const std::string& mine,
                                 const std::function<void()>& wait);
 

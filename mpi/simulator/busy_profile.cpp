@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The bins have one width. When the time exceeds the last bin, pairs of bins are merged.
+// The number of bins is fixed and all bins have the same width. If a time is beyond the last bin,
+// pairs of bins are merged and the width doubles.
 #include "mpi/simulator/busy_profile.h"
 
 #include <algorithm>

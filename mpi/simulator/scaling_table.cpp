@@ -23,7 +23,7 @@ double ratio(double part, double whole) {
   return whole == 0 ? 0 : part / whole;
 }
 
-// The increase relative to `before`.
+// Returns the relative increase from `before` to `now`.
 double growth(double now, double before) {
   return ratio(now - before, before);
 }

@@ -10,10 +10,10 @@
 
 namespace grove::detail {
 
-// One run compared with the run of a single rank. A value.
+// One simulated run compared with the run of a single rank. A value.
 struct ScalingRow {
   int ranks = 0;
-  // Status of the solution. "unfinished": a limit was reached first, and only ranks, cost,
+  // Status of the solution, or "unfinished" if a limit was reached first; then only ranks, cost,
   // lower_bound and wall_s are set.
   std::string status;
   Cost cost = 0;  // -1: no plan
@@ -21,8 +21,8 @@ struct ScalingRow {
   double wall_s = 0;
   double speed_up = 0;
   double efficiency = 0;  // speed-up / ranks
-  // Search overhead: nodes that all ranks expanded, seconds that all ranks together spent on that,
-  // and the increase of both over one rank, as a fraction of the value of one rank.
+  // Search overhead: nodes expanded by all ranks, seconds that all ranks together spent on that,
+  // and the increase of each over the run of one rank, as a fraction of that run's value.
   std::int64_t nodes = 0;
   double nodes_overhead = 0;
   double expanding_s = 0;
@@ -33,20 +33,21 @@ struct ScalingRow {
   double messages_per_node = 0;
   double bytes_per_node = 0;
   std::int64_t nodes_sent = 0;
-  double communication_share = 0;              // fraction of the time of all ranks
-  double coordinator_communication_share = 0;  // fraction of the time of rank 0
-  double coordinator_wait_s = 0;  // seconds between the arrival of a message and its handling, mean
+  double communication_share = 0;  // communication time as a fraction of the time of all ranks
+  double coordinator_communication_share =
+      0;                          // communication time as a fraction of the time of rank 0
+  double coordinator_wait_s = 0;  // mean seconds from the arrival of a message to its handling
   // Load balance.
-  double max_over_mean = 0;  // of the seconds of expanding, over ranks
+  double max_over_mean = 0;  // maximum / mean over ranks of the seconds spent on expansions
   double idle_share = 0;     // fraction of the time of all workers
-  double first_node_s = 0;   // time at which a rank's worker began its first node, mean
+  double first_node_s = 0;   // mean time at which a rank's worker started its first node
   std::int64_t ranks_without_node = 0;
 };
 
-// Compares `run` with `alone`, the run of one rank.
+// Compares `run` with `alone`, the run of a single rank.
 ScalingRow scaling_row(const SimulatedRun& run, const SimulatedRun& alone);
 
-// The column names, and the values of a row. Comma-separated, without the end of line.
+// The column names, and the values of a row: comma-separated, without a line end.
 std::string scaling_header();
 std::string csv_line(const ScalingRow& row);
 

@@ -29,9 +29,9 @@ void SimulatedWorker::begin(double now, Expander& expander) {
   worker_.perform(*turn_, expander);
   expander.swap_cache(agent_caches_);
   for (auto& [id, set] : turn_->found.sets)
-    if (set.use_count() == 1) set = sets_.one_of(set);  // just built
-  // Not too early: a simulated rank has one worker, so no other worker of the rank reads the
-  // results before this work item ends.
+    if (set.use_count() == 1) set = sets_.one_of(set);  // just built by this item
+  // Publishing here, before the simulated end of the item, is not too early: a simulated rank has
+  // only one worker, so no other worker of the rank can read the results.
   Worker::publish(*turn_);
   const double processor_s = processor_time() - before_s;
   const double work = expander.whole_work() - before + static_cast<double>(turn_->lagrangian.work);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Worker of a simulated rank, and the MDDs that all simulated workers share.
+// Worker of a simulated rank, and the table of MDDs that all simulated workers share.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,13 @@
 
 namespace grove::detail {
 
-// Each rank builds the MDDs that it needs itself, and most ranks need the same MDDs. Storing equal
-// MDDs once saves two fifths of the memory of 128 simulated ranks, and a quarter with 1,024 ranks
-// (room-32-32-4, 22 agents, 40 tasks). One thread at a time.
+// Stores equal MDDs of all simulated ranks once. Each rank builds the MDDs that it needs, and most
+// ranks need the same ones. Saves two fifths of the memory with 128 simulated ranks, and a quarter
+// with 1,024 ranks (room-32-32-4, 22 agents, 40 tasks). One thread at a time.
 class MddInterner {
  public:
-  // Returns an equal stored MDD that is still in use. If there is none, stores and returns `set`.
+  // Returns a stored MDD that equals `set` and is still in use. If there is none, stores and
+  // returns `set`.
   MddCache::Set one_of(const MddCache::Set& set);
 
   std::size_t size() const { return sets_.size(); }
@@ -31,24 +32,24 @@ class MddInterner {
   std::size_t many_ = 1000;
 };
 
-// Runs a worker's work items on a simulated clock. The results of an item are visible to other
+// Runs a worker's work items on a simulated clock. The results of an item become visible to other
 // ranks only after its simulated duration (Machine::seconds_per_work). One thread at a time.
 class SimulatedWorker {
  public:
   struct Tally {
     std::int64_t turns = 0;
-    double work = 0;          // see search/work.h
+    double work = 0;          // effort; see search/work.h
     double busy_s = 0;        // simulated seconds
     double processor_s = 0;   // real processor time
-    double first_turn_s = 0;  // when the first work item began, if any
+    double first_turn_s = 0;  // start of the first work item, if any, in simulated seconds
   };
 
   // All arguments must outlive this. `sets` is shared by all workers.
   SimulatedWorker(Worker& worker, const Machine& machine, MddInterner& sets)
       : worker_(worker), machine_(machine), sets_(sets) {}
 
-  // Begins a work item if there is one; then the worker is busy. `expander` may be any expander of
-  // the same problem. It is used as if it were this worker's own.
+  // Starts a work item if the worker has one; then busy() is true until end() or abandon().
+  // `expander` can be any expander of the same problem; it is used as if it were this worker's own.
   void begin(double now, Expander& expander);
   bool busy() const { return turn_.has_value(); }
   // Start and end of the current or last work item, in simulated seconds.
@@ -56,7 +57,7 @@ class SimulatedWorker {
   double busy_until() const { return busy_until_; }
   // Ends the work item and commits its results.
   void end();
-  // Ends the work item early, without results, at the end of a run.
+  // Ends the work item at `now`, without results, because the run ends.
   void abandon(double now);
 
   const Tally& tally() const { return tally_; }
@@ -66,7 +67,7 @@ class SimulatedWorker {
   const Machine& machine_;
   MddInterner& sets_;
   std::optional<Worker::WorkItem> turn_;  // nullopt: not busy
-  Expander::AgentCaches agent_caches_;    // per-agent data that an expander of its own would keep
+  Expander::AgentCaches agent_caches_;  // per-agent data that the worker's own expander would keep
   double began_ = 0;
   double busy_until_ = 0;
   Tally tally_;

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Discrete-event simulation of a distributed search. Each rank has a worker and a communicator. An
-// event is a time at which one of them is due, and its actions make others due. One thread runs all
-// ranks with the engine's own coordinator, ranks, nodes and workers. One expander serves all
-// workers. For each work item it uses the caches of the item's rank and the agents as they were at
-// that rank's last node. So a rank has only its own results and those that other ranks sent to it.
+// event is a time at which one of them is due to act; its actions schedule further events. One
+// thread runs all ranks, with the engine's own coordinator, ranks, nodes and workers. One expander
+// serves all workers. For each work item it uses the caches of the item's rank, and its per-agent
+// data as they were after that rank's last node. Therefore a rank uses only its own results and
+// those that other ranks sent to it.
 //
-// *Polls.* A communicator polls the network periodically, but a poll matters only if a message has
-// arrived or there is something new to send. So only the next poll after each such cause is
-// simulated.
+// *Polls.* A communicator polls the network periodically, but a poll has an effect only if a
+// message has arrived or there is something new to send. Therefore only the first poll after such a
+// cause is simulated.
 //
-// *Batching.* Between two polls a rank neither receives nor sends anything. So all work items of
-// its worker up to the next poll are run in succession. This keeps the data of the rank in the
+// *Batching.* Between two polls a rank neither receives nor sends anything, so all work items of
+// its worker up to the next poll run in succession. This keeps the data of the rank in the
 // processor's caches, which cannot hold the data of a thousand ranks.
 #include "mpi/simulator/simulation.h"
 
@@ -36,7 +37,7 @@ namespace {
 constexpr double kNotDue = std::numeric_limits<double>::infinity();
 constexpr double kGoldenRatio = 0.6180339887;  // its multiples spread evenly over [0, 1)
 
-// The simulated search has no primal search.
+// Returns the options without primal search, because simulated ranks run none.
 SolveOptions without_primal(SolveOptions options) {
   options.techniques = options.techniques.without(Technique::kPrimal);
   return options;
@@ -83,12 +84,12 @@ struct SimulatedRank {
            member.rank().search().lagrangian().has_jobs();
   }
 
-  Limits limits;  // one per rank, because ranks end one after the other
+  Limits limits;  // one per rank, because each rank cancels its own worker
   TimedTransport transport;
   RankProcess member;
   Worker worker;
   SimulatedWorker player;
-  double heard_at;  // when the last message was handled; the poll times follow from it
+  double heard_at;  // when the last message was handled; determines the poll times
   double communication_due = kNotDue;
   double communicates_until = 0;  // end of the current or last communication
   double communication_s = 0;
@@ -142,14 +143,14 @@ class Simulation {
     agenda_.push({time, serial_++, rank, actor});
   }
 
-  // The first time at `time` or later at which the rank can communicate.
+  // Returns the first time, at or after `time`, at which the rank can communicate.
   double first_communication(SimulatedRank& r, double time) const {
     const double interval = max_poll_interval(r.member.rank().ended(), setting_.machine.poll);
     if (time > r.communicates_until) time = next_poll(r.heard_at, time, interval);
     return std::max(time, r.communicates_until);
   }
 
-  // Schedules a poll of the rank at `time` or soon after.
+  // Schedules a poll by the rank at its first poll time at or after `time`.
   void communicate_from(double time, int rank) {
     SimulatedRank& r = at(rank);
     time = first_communication(r, time);
@@ -160,7 +161,7 @@ class Simulation {
 
   void communication(int rank) {
     SimulatedRank& r = at(rank);
-    if (r.communication_due != now_) return;  // the rank has communicated already
+    if (r.communication_due != now_) return;  // obsolete event: the rank has communicated since
     r.communication_due = kNotDue;
     setting_.communication = {};
     const double before_s = processor_time();
@@ -175,7 +176,7 @@ class Simulation {
     if (heard) r.heard_at = r.communicates_until;
   }
 
-  // Schedules the consequences of the communication that this rank began at `time`.
+  // Schedules what follows from the communication that this rank started at `time`.
   void communicated(int rank, double time) {
     SimulatedRank& r = at(rank);
     r.communicates_until = time + setting_.communication.takes_s;
@@ -193,7 +194,8 @@ class Simulation {
     wall_s_ = std::max(wall_s_, r.communicates_until);
   }
 
-  // Runs work items of the rank's worker until the first whose end may depend on other ranks.
+  // Runs work items of the rank's worker, up to the first one that ends at or after the next
+  // possible communication.
   void work(int rank) {
     SimulatedRank& r = at(rank);
     if (r.said_farewell) return;
@@ -206,8 +208,8 @@ class Simulation {
     schedule(r.player.busy_until(), rank, Actor::kWorker);
   }
 
-  // Ends the current work item. Returns false if it ends after `time`: then this event was
-  // scheduled before the item began.
+  // Ends the current work item. Returns false if the item ends after `time`, because the event was
+  // scheduled before the item started.
   bool cancel_workers(int rank, double time) {
     SimulatedRank& r = at(rank);
     if (r.player.busy_until() > time) return false;

@@ -12,8 +12,8 @@
 
 namespace grove::detail {
 
-// Result of a simulation. Times are seconds of the simulated clock, which starts when all ranks are
-// ready, except processor times, which are real.
+// Result of a simulation. All times are in seconds. They are times of the simulated clock, which
+// starts when all ranks are ready, except processor times, which are real.
 struct SimulatedRun {
   static constexpr int kParts = 100;
 
@@ -22,22 +22,22 @@ struct SimulatedRun {
     double communication_s = 0;
     std::int64_t messages = 0;  // messages sent
     std::int64_t bytes = 0;
-    std::int64_t received = 0;             // messages received
-    double waited_s = 0;                   // between arrival and handling, summed over the messages
-    double communication_processor_s = 0;  // real: everything except the expansion of nodes
+    std::int64_t received = 0;  // messages received
+    double waited_s = 0;        // time from arrival to handling, summed over the messages
+    double communication_processor_s = 0;  // real time of everything except expansions
   };
 
-  // false: a limit was reached first, and the other fields describe the run so far
+  // False: a limit was reached before the end, and the other fields describe the run so far.
   bool ended = false;
-  Solution solution;  // with the counts of the ranks if `ended`
-  double wall_s = 0;  // until the solution was known and all ranks had left
+  Solution solution;  // includes the counts of the ranks if `ended`
+  double wall_s = 0;  // until the solution was known and all ranks had finished
   std::vector<Rank> ranks;
   std::vector<double> busy;  // mean number of busy workers in each of kParts equal parts of wall_s
 };
 
 // Simulates `ranks` ranks with one worker each. `options.start` should be a good plan, because
-// there is no primal search. `limits` apply to the simulation itself. Throws what solve() throws,
-// and std::logic_error if no event is left although the run has not ended.
+// simulated ranks run no primal search. `limits` apply to the simulation, in real time. Throws what
+// solve() throws, and std::logic_error if no event is left although the run has not ended.
 SimulatedRun simulate(const Problem& problem, const SolveOptions& options, const Limits& limits,
                       int ranks, const Machine& machine);
 

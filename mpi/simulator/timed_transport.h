@@ -14,19 +14,19 @@
 
 namespace grove::detail {
 
-// The cost of one exchange of messages by a rank, which begins at the current time of the network.
-// A value.
+// Cost of one exchange of messages by a rank. The exchange starts at the current time of the
+// network. A value.
 struct Communication {
-  double takes_s = 0;          // seconds so far
+  double takes_s = 0;          // duration of the exchange so far, in seconds
   std::vector<int> receivers;  // receivers of the messages sent
 };
 
-// A rank's transport on a simulated network, where each message costs time of the rank that sends
-// or receives it. One thread at a time.
+// A rank's transport on a simulated network on which each message costs time of its sender and of
+// its receiver. One thread at a time.
 class TimedTransport : public Transport {
  public:
-  // All arguments must outlive this. `communication` is the exchange in progress, of any rank. A
-  // message that it sends leaves when the exchange has taken `communication.takes_s`.
+  // All arguments must outlive this. `communication` is the exchange in progress, whichever rank it
+  // is of. A message sent in it leaves when the exchange has taken `communication.takes_s`.
   TimedTransport(SimulatedNetwork& network, int rank, const Machine& machine,
                  Communication& communication)
       : network_(network),
@@ -48,7 +48,7 @@ class TimedTransport : public Transport {
 
   // Messages received so far.
   std::int64_t received() const { return received_; }
-  // Seconds between arrival and handling, summed over the messages received.
+  // Seconds from arrival to handling, summed over the messages received.
   double waited_s() const { return waited_s_; }
 
  private:

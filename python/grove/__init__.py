@@ -70,7 +70,7 @@ def _invalid(field, value, expected):
 
 
 def _rows(field, value, expected):
-    """Returns the elements of a list or an array. Raises InvalidArgument."""
+    """Returns the elements of a list or an array. Raises InvalidArgument for any other value."""
     if isinstance(value, (str, bytes, dict)) or not hasattr(value, "__iter__"):
         raise _invalid(field, value, expected)
     try:
@@ -80,7 +80,7 @@ def _rows(field, value, expected):
 
 
 def _cells(field, value):
-    """Returns the cells of a list or an array as tuples (x, y) of int. Raises InvalidArgument."""
+    """Returns the cells of a list or an array as tuples (x, y) of int. Raises InvalidArgument for invalid cells."""
     rows = _rows(field, value, "a list or an array of cells (x, y)")
     cells = []
     for i, row in enumerate(rows):
@@ -99,8 +99,8 @@ def _cells(field, value):
 def instance_from_dict(data, folder=".", *, following=True):
     """Makes an instance from a dict in the format of a *.cts.json file.
 
-    data: "map" is a World, a list of rows, or a file name; "roadmap" is a World or a file name.
-    folder: directory of these files.
+    data: its "map" is a World, a list of rows, or a file name; or its "roadmap" is a World or a file name.
+    folder: the directory to which file names are relative.
     following: whether a robot may enter a place in the step in which another leaves it.
     """
     rest = {key: value for key, value in data.items() if key not in ("map", "roadmap")}
@@ -118,11 +118,11 @@ def instance_from_dict(data, folder=".", *, following=True):
 def instance_from_arrays(world, starts, goals=None, tasks=None, *, following=True):
     """Makes an instance on a grid from arrays of cells (x, y).
 
-    starts, goals: one row per agent. Without goals an agent ends on its last task.
-    tasks: for each agent, the cells that it has to visit. A cell of several agents is one task of all of them.
+    starts, goals: one row (x, y) per agent. Without goals, each agent ends on any one of its tasks.
+    tasks: for each agent, the cells that it must visit. A cell of several agents is one task for all of them.
     following: whether a robot may enter a place in the step in which another leaves it.
 
-    The agents get the ids a0, a1, ..., the tasks t0, t1, ....
+    The agents have the ids a0, a1, ..., and the tasks the ids t0, t1, ....
 
     >>> instance_from_arrays(World("....\\n...."), starts=[(0, 0), (3, 0)], tasks=[[(3, 1)], [(0, 1)]])
     <grove.Instance: 2 agents, 2 tasks>
@@ -158,19 +158,20 @@ def solve(instance, *, omega=_grove._omega, time_limit=_grove._time_limit, memor
     """Finds a plan and proves a lower bound on the cost of every plan.
 
     omega: relative tolerance: the search ends when its plan costs at most 1 + omega times the lower bound; 0: optimal.
-    time_limit: seconds; None: no limit. At a limit the best plan so far is returned.
-    memory_limit: bytes of this process; "auto": default_memory_limit(); None: no limit.
+    time_limit: seconds; None: no limit. When it is reached, solve() returns the best plan so far.
+    memory_limit: bytes of this process; "auto": default_memory_limit(); None: no limit. It also ends the search.
     threads: number of search threads; "auto": default_threads().
-    deterministic: the same plan for any number of threads, limits excepted.
+    deterministic: finds the same plan for any number of threads, unless a limit is reached.
     seed: seed of all random choices.
     method: "auto", or a published method for comparison (`grove solve --help` lists them).
-    start: a valid plan to start from.
+    start: a valid plan of the instance, from which the search starts.
     progress: called with a Progress every `progress_interval` seconds.
-    incumbent: called with each better plan and a Progress.
-    stop: a threading.Event; setting it ends the solve like a limit.
+    incumbent: called with each better Plan and a Progress.
+    stop: a threading.Event; setting it ends the search in the same way as a limit.
 
-    Returns a Solution. Raises InvalidArgument for options that are invalid or do not suit the instance. An exception
-    of a callback ends the solve and propagates; Ctrl-C raises KeyboardInterrupt. Other Python threads keep running.
+    Returns a Solution; its texts["stopped_by"] names the limit that ended the search, if any. Raises InvalidArgument
+    for options that are invalid or do not suit the instance. If a callback raises an exception, the search ends and
+    solve() raises this exception. Ctrl-C raises KeyboardInterrupt. Other Python threads run during the search.
     """
     return _grove._solve(instance, {
         "omega": omega, "time_limit": time_limit, "memory_limit": memory_limit, "threads": threads,
@@ -180,10 +181,10 @@ def solve(instance, *, omega=_grove._omega, time_limit=_grove._time_limit, memor
 
 
 def check(plan, limit=20):
-    """Checks a Plan, or a Solution and its claims; returns the violations as (place, message).
+    """Checks a Plan, or a Solution and its claims; returns the violations as (place in the plan file, message).
 
-    An empty list means that the plan is valid. At most `limit` violations are returned. The checker has its own code
-    for paths, visits, costs and conflicts.
+    If the list is empty, the plan is valid. It has at most `limit` violations. The checker has its own code for
+    paths, visits, costs and conflicts.
 
     >>> world = World("...")
     >>> swapping = instance_from_arrays(world, [(0, 0), (1, 0)], goals=[(1, 0), (0, 0)])
@@ -196,9 +197,9 @@ def check(plan, limit=20):
 
 
 class Session:
-    """A plan that is updated when time passes, robots are late, or the instance changes.
+    """An instance and its plan, updated when time passes, robots are late, or the instance changes.
 
-    Session(plan) starts from a Plan, Session(instance) without one.
+    Session(plan) starts with a Plan, Session(instance) without a plan. One thread at a time.
     """
 
     def __init__(self, plan):
@@ -206,20 +207,32 @@ class Session:
 
     @property
     def instance(self):
-        """The current instance, with times counted from 0."""
+        """The remaining instance; its time 0 is now."""
         return self._session.instance()
 
     @property
     def plan(self):
-        """A valid plan of the current instance; None before the first replan(), or if none was found."""
+        """A valid plan of the current instance; None if there is none yet, or if a change made it invalid."""
         return self._session.plan()
 
     def advance(self, steps, late=None):
-        """Advances the session by `steps` steps. late, as {"red": 2}: agents that are behind the plan, in steps."""
+        """Advances the session by `steps` steps along its plan; times then count from 0 again.
+
+        late: robots that are now behind the plan, in steps: {"red": 2}. Robots that must wait for them are also late.
+
+        Raises InvalidArgument without a plan, or if a delay is impossible; the session is then unchanged.
+        """
         self._session.advance(steps, dict(late or {}))
 
     def change(self, new_tasks=(), dropped_tasks=(), blocked=()):
-        """Adds tasks, drops tasks by id, and blocks places: cells, or vertices with all their roads."""
+        """Changes the instance; the next replan() repairs the plan.
+
+        new_tasks: tasks as in an instance.
+        dropped_tasks: ids of tasks that no robot has to visit any more.
+        blocked: cells to block, or vertices to block with all their roads.
+
+        Raises InvalidArgument if the change is impossible; the session is then unchanged.
+        """
         self._session.change(list(new_tasks), list(dropped_tasks), list(blocked))
 
     def replan(self, *, commit=0, omega=_grove._omega, time_limit=_grove._replan_time_limit,
@@ -227,9 +240,9 @@ class Session:
                progress=None, incumbent=None, progress_interval=0.1, stop=None):
         """Solves the current instance, starting from the repaired old plan; returns a Solution.
 
-        commit: number of steps for which all robots keep to the old plan.
+        commit: number of steps of the old plan with which the new plan begins; robots execute them during the search.
 
-        The other arguments are those of solve().
+        The other arguments are those of solve(). After Ctrl-C the session has the best plan so far.
         """
         return self._session.replan(commit, {
             "omega": omega, "time_limit": time_limit, "memory_limit": memory_limit,
@@ -241,7 +254,7 @@ class Session:
 # --- Displaying plans ---
 
 def visits(plan):
-    """Lists all visits as (agent, task, begin, end), in steps; end is begin for a task without duration."""
+    """Lists all visits as (agent, task, begin, end), in steps; end equals begin for a task without a duration."""
     cells = {task["id"]: task["cell"] for task in plan.instance.tasks}
     cells = {task: cell if isinstance(cell, str) else tuple(cell) for task, cell in cells.items()}
     rows = []
@@ -301,9 +314,9 @@ class View:
 
 
 def view(*plans, title="plan", height=600):
-    """Returns a View that plays a Plan or Solution, or two of one instance side by side.
+    """Returns a View that plays a Plan or Solution, or two of them for one instance side by side.
 
-    An Instance is shown at its start. A notebook shows the View if it is the last value of a cell.
+    The View of an Instance shows its start. A notebook shows the View if it is the last value of a cell.
     """
     if not 1 <= len(plans) <= 2:
         raise InvalidArgument(f"{len(plans)} plans; expected one or two")
@@ -321,9 +334,9 @@ def picture(plan, path, *, at=(0,), width=800, speed=4.0):
     """Writes a picture of a Plan, Solution or Instance.
 
     path: *.svg, *.png or *.gif.
-    at: times shown by .svg and .png, in steps. A .gif shows all times.
-    width: pixels.
-    speed: of a .gif, steps per second.
+    at: times that an .svg or .png shows, in steps. A .gif shows all times.
+    width: width of the picture, pixels.
+    speed: speed of a .gif, steps per second.
     """
     kind = _os.path.splitext(_os.fspath(path))[1][1:].lower()
     if kind not in ("svg", "png", "gif"):

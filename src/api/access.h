@@ -39,7 +39,7 @@ struct Access {
   static const detail::Instance& instance(const Instance& instance) {
     return instance.data_->instance;
   }
-  // Returns the public instance that a user would have made.
+  // Converts to the public type.
   static Instance to_public(detail::Instance instance);
 };
 
@@ -47,7 +47,7 @@ struct Access {
 
 detail::Place place_of(const detail::Map& map, const Place& place, const std::string& field);
 Place public_place(const detail::Map& map, detail::Place place);
-// For an agent with this motion.
+// Poses of an agent with motion `motion`.
 detail::Pose pose_of(const detail::Map& map, detail::Motion motion, const Pose& pose,
                      const std::string& field);
 Pose public_pose(const detail::Map& map, detail::Motion motion, const detail::Pose& pose);
@@ -62,10 +62,10 @@ Plan public_plan(const detail::Instance& instance, const detail::Plan& plan);
 detail::Solution solution_of(const detail::Instance& instance, const Solution& solution);
 Solution public_solution(const detail::Instance& instance, const detail::Solution& solution);
 
-// Converts Options::omega. Throws InvalidArgument.
+// Converts Options::omega. Throws InvalidArgument if it is neither from 0 to 1e6 nor infinite.
 detail::Omega omega_of(double omega);
 
-// Returns what `act` returns. Rethrows what it throws as an exception of the public API.
+// Returns the result of `act`. Translates exceptions of `act` into those of the public API.
 template <class Act>
 auto translated(Act&& act) {
   try {

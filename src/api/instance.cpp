@@ -30,8 +30,8 @@ detail::AgentSpec spec_of(const detail::Map& map, const Agent& agent, const std:
   return spec;
 }
 
-// The builder checks the rules. Its errors name the field within an item; `field` is the JSON
-// Pointer of the item.
+// Calls `add`. The builder's errors name the field within an item; this function prepends `field`,
+// the JSON Pointer of the item.
 template <class Add>
 void added(const std::string& field, Add&& add) {
   try {

@@ -189,7 +189,8 @@ Solution parse_plan(std::string_view text, const Instance& instance) {
 
 namespace {
 
-// As translated(), but if the checker refuses a plan, the error is the user's.
+// Like translated(), but if the checker refuses a plan, throws InvalidArgument, because the plan is
+// the caller's.
 template <class Act>
 auto refusing_invalid_plans(Act&& act) {
   return translated([&] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs a solve with the options of a user: sets the limits and calls the user's functions.
+// One solve with the options of a user: sets the limits and calls the user's callbacks.
 #pragma once
 
 #include <atomic>
@@ -14,15 +14,17 @@
 
 namespace grove {
 
-// Throws InvalidArgument.
+// Converts and checks `options`. Throws InvalidArgument if they are invalid or do not suit
+// `instance`.
 detail::SolveOptions search_options_of(const detail::Instance& instance, const Options& options);
 
 class Run {
  public:
-  // `options` must outlive this.
+  // Both arguments must outlive this.
   Run(const detail::Instance& instance, const Options& options);
 
-  // Calls search(limits, observer). Rethrows what the search or a function of the user throws.
+  // Returns the result of search(limits, observer), with further statistics. Rethrows what the
+  // search or a callback of the user throws.
   template <class Search>
   detail::Solution operator()(Search&& search) {
     detail::Solution solution = search(limits_, observer_);
@@ -43,7 +45,7 @@ class Run {
                       const detail::Progress& progress) override;
     void on_event(detail::RunEvent event, const detail::Progress& progress) override;
 
-    std::exception_ptr failure;  // thrown by a function of the user
+    std::exception_ptr failure;  // exception of a user's callback
 
    private:
     Progress to_public(const detail::Progress& progress) const;
@@ -54,7 +56,7 @@ class Run {
     const Options& options_;
     std::atomic<bool>& stop_;
     const Clock::time_point begin_;
-    Clock::time_point next_{};  // earliest time of the next progress call
+    Clock::time_point next_{};  // earliest time of the next on_progress call
   };
 
   void add_facts(detail::Solution& solution) const;

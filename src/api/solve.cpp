@@ -40,7 +40,7 @@ int default_threads() {
   return std::min(detail::usable_cores(), kMaxThreads);
 }
 
-// Rounded down to units of 10 MB, as the command line shows it.
+// Rounded down to a multiple of 10 MB, because the command line shows it in that unit.
 std::size_t default_memory_limit() {
   constexpr std::uint64_t kUnit = 10'000'000;
   static const std::uint64_t granted = detail::usable_memory();
@@ -69,7 +69,7 @@ Run::Run(const detail::Instance& instance, const Options& options)
       observer_(instance, options, stop_, begin_) {
   limits_.watch_interrupt(&stop_);
   if (options.memory_limit) limits_.set_memory_limit(*options.memory_limit);
-  // A time limit of 1e9 s or more counts as none, because the clock could overflow.
+  // A time limit of 1e9 s or more counts as no limit, because the clock could overflow.
   if (options.time_limit && *options.time_limit < 1e9)
     limits_.set_deadline(begin_ + std::chrono::duration_cast<Clock::duration>(
                                       std::chrono::duration<double>(*options.time_limit)));
@@ -87,8 +87,8 @@ Progress Run::Observer::to_public(const detail::Progress& progress) const {
           .cost = progress.incumbent};
 }
 
-// An exception of a user's function must not pass through the search. It is stored and ends the
-// run.
+// Calls `tell`, which calls a user's callback. An exception of the callback must not pass through
+// the search, so this function stores it and ends the run.
 template <class Function>
 void Run::Observer::call(Function&& function) {
   if (failure) return;

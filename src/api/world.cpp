@@ -40,7 +40,7 @@ int vertex_of(const detail::Roadmap& roadmap, const std::string& id, const std::
   return *vertex;
 }
 
-// Index of the road between its two ends that a place is on.
+// Returns the index of the road that the place is on.
 int road_of(const detail::Roadmap& roadmap, const OnRoad& place, const std::string& field) {
   const auto roads = roadmap.roads_between(vertex_of(roadmap, place.from, field),
                                            vertex_of(roadmap, place.to, field));

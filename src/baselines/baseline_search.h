@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Base class of the low levels of published methods. It rejects queries that they do not support.
+// Base class for the low levels of published methods, which rejects queries that they do not
+// support.
 #pragma once
 
 #include <algorithm>

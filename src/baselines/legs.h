@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Interface of the leg planners of HCBS and MGCBS: paths from one goal to the next.
+// Interface of the leg planners of HCBS and MGCBS. A leg is a path from one goal to the next.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@
 
 namespace grove::detail {
 
-// Maximum number of labels: all that a 32-bit number can identify. A search that needs more throws
-// std::bad_alloc, as if memory were refused.
+// Maximum number of labels of a search, because labels have 32-bit numbers. A search that needs
+// more throws std::bad_alloc, as if memory were exhausted.
 inline constexpr std::size_t kMaxLabels = std::numeric_limits<std::int32_t>::max();
 
-// Finds the legs of one agent. One thread at a time.
+// Finds legs for one agent at a time. One thread at a time.
 class Legs {
  public:
   Legs() = default;
@@ -27,23 +27,24 @@ class Legs {
   Legs& operator=(const Legs&) = delete;
   virtual ~Legs() = default;
 
-  // Starts with one agent and its constraints. All arguments must stay valid until the next call.
+  // Starts with an agent and its constraints. All arguments must stay valid until the next call of
+  // begin().
   virtual void begin(const AgentStops& stops, const SafeIntervals& intervals,
                      std::span<const Constraint> constraints) = 0;
 
-  // A safe interval of the cell of a goal. The goal is a stop, or, with number stops.count(), the
-  // destination.
+  // A safe interval of the cell of a goal. The goal is the number of a stop, or stops.count() for
+  // the destination; the slot is that of the interval.
   struct Target {
     int goal;
     int slot;
   };
-  // Returns the first time >= `time` at which an agent that is on `from` at `time` can be in the
-  // target, over all paths. Returns kNever if there is none, or if a limit was reached (then
+  // Returns the earliest time >= `time` at which an agent that is on `from` at `time` can be in the
+  // target, over all paths. Returns kNever if it cannot, or if a limit was reached (then
   // limits.stop_requested()).
   virtual Time arrival(Cell from, Time time, Target target, const Limits& limits) = 0;
 
-  // Appends the agent's cells at time + 1, time + 2, ... on such a path. Call only after arrival()
-  // has found it, under the same constraints.
+  // Appends the agent's cells at time + 1, time + 2, ..., arrival() on a path that arrives then.
+  // Call it only after arrival() has found the leg, under the same constraints.
   virtual void append(Cell from, Time time, Target target, Path& path) = 0;
 
   // Number of labels expanded so far.

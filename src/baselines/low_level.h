@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Low levels of published methods, for comparison. CBS with one of them instead of Grove's own low
-// level, and without any other technique, is that method.
+// Low levels of published methods, for comparison. CBS with such a low level instead of Grove's
+// own, and without any other technique, is the published method.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +16,17 @@ enum class LowLevel : std::uint8_t {
   kVisitedSets,         // Optimal-CBS: A* over (cell, time, tasks visited); visited_set_search.cpp
   kSingleLegs,          // HCBS (Surynek 2021): A* over visiting orders, A* for each leg;
                         // space_time_legs.cpp
-  kTimeIntervalForest,  // MGCBS (Tang et al. 2024): the same over goals' safe intervals, legs from
-                        // a forest of trees; time_interval_forest.cpp
+  kTimeIntervalForest,  // MGCBS (Tang et al. 2024): A* over visiting orders, legs from a forest of
+                        // time-interval trees; time_interval_forest.cpp
 };
 
-// Makes the planner. `world` must outlive it. All except kOwn
-// - support only vertex and edge constraints, no reservations, and only the class of all sequences
-//   (otherwise std::invalid_argument),
-// - ignore everything in a query except constraints and cutoff,
+// Makes the planner. `world` must outlive it. All planners except that of kOwn
+// - support only vertex and edge constraints, no reservations, and only the class of all sequences,
+//   and otherwise throw std::invalid_argument;
+// - ignore everything else in a query except the cutoff;
 // - throw std::bad_alloc if memory is insufficient.
 //
-// The stops of one agent must be the same in every call.
+// The stops of an agent must be the same in every call of find().
 std::unique_ptr<AgentPlanner> make_agent_planner(LowLevel low_level, const World& world);
 
 }  // namespace grove::detail

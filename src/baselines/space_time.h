@@ -14,8 +14,8 @@ namespace grove::detail {
 // Number of expansions between two checks of the limits: about a tenth of a millisecond.
 inline constexpr std::int64_t kExpansionsPerPoll = 512;
 
-// Returns a time from which on the constraints are constant: a cell or move is then either
-// forbidden at this and every later time, or never again.
+// Returns a time from which on the constraints are constant: each cell and each move is then
+// forbidden either at every later time or at none.
 inline Time static_from(std::span<const Constraint> constraints) {
   Time static_time = 0;
   for (const Constraint& c : constraints)
@@ -23,8 +23,8 @@ inline Time static_from(std::span<const Constraint> constraints) {
   return static_time;
 }
 
-// Returns the slot of `cell` at `time`, -1 if the cell is forbidden then. Only with vertex and edge
-// constraints.
+// Returns the slot of `cell` at `time`, or -1 if the cell is forbidden at that time. All
+// constraints must be vertex or edge constraints.
 inline int slot_at(const SafeIntervals& intervals, Cell cell, Time time) {
   if (intervals.unconstrained(cell)) return cell;
   for (int slot = intervals.first_slot(cell); slot < intervals.end_slot(cell); ++slot)
@@ -32,8 +32,7 @@ inline int slot_at(const SafeIntervals& intervals, Cell cell, Time time) {
   return -1;
 }
 
-// Calls reach(cell) for every cell where an agent that is on `from` at `time` can be one step
-// later.
+// Calls reach(cell) for every cell that an agent on `from` at `time` can be on at `time` + 1.
 template <class Reach>
 void for_each_step(const World& world, const SafeIntervals& intervals, Cell from, Time time,
                    Reach reach) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Space-time A* for one leg, over (cell, time). From the time on at which the constraints are
-// constant, all times are one state, which keeps the earliest time. So the space is finite, and the
-// search proves that a leg does not exist. f = max(time + distance, begin of the target), which is
-// consistent.
+// constant, all times are one state, which keeps the earliest time. The space is therefore finite,
+// and the search can prove that a leg does not exist. f = max(time + distance, begin of the
+// target's interval), which is consistent.
 #include "baselines/space_time_legs.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ void SpaceTimeLegs::append(Cell from, Time time, Target target, Path& path) {
   }
 }
 
-// Returns the label of the earliest arrival in the target, kNone if there is none or a limit was
+// Returns the label of the earliest arrival in the target, or kNone if there is none or a limit was
 // reached.
 std::int32_t SpaceTimeLegs::find(Cell from, Time time, Target target, const Limits& limits) {
   forget();

@@ -12,7 +12,7 @@ namespace grove::detail {
 
 class SpaceTimeLegs : public Legs {
  public:
-  // `world` must outlive this.
+  // `world` must outlive this object.
   explicit SpaceTimeLegs(const World& world) : world_(world) {}
 
   void begin(const AgentStops& stops, const SafeIntervals& intervals,
@@ -46,10 +46,10 @@ class SpaceTimeLegs : public Legs {
   const SafeIntervals* intervals_ = nullptr;
   Time static_from_ = 0;
 
-  // Of the leg in progress.
+  // State of the leg in progress.
   Time first_ = 0;             // time of the first row
-  std::vector<Label> labels_;  // by time - first_, then cell; the last row is all times from
-                               // static_from_ on
+  std::vector<Label> labels_;  // by time - first_, then cell; the last row stands for all
+                               // times from static_from_ on
   std::uint32_t stamp_ = 0;
 };
 

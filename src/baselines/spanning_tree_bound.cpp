@@ -18,7 +18,7 @@ Time SpanningTreeBound::operator()(StopSet left, int at) {
   return known_[number];
 }
 
-// Prim's algorithm, from any goal.
+// Prim's algorithm, starting from an arbitrary goal.
 Time SpanningTreeBound::tree(StopSet left, int at) {
   outside_.clear();
   if (at != kNowhere) outside_.push_back(at);
@@ -41,7 +41,7 @@ Time SpanningTreeBound::tree(StopSet left, int at) {
   return total;
 }
 
-// Distances are symmetric.
+// Distance between two goals. Distances are symmetric in the worlds of the baselines.
 Time SpanningTreeBound::distance(int from, int to) const {
   if (from == destination_) std::swap(from, to);
   const Cell cell = stops_.place(from);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Minimum-spanning-tree heuristic of the baselines.
+// Minimum-spanning-tree heuristic for the baselines.
 #pragma once
 
 #include <vector>
@@ -9,19 +9,19 @@
 
 namespace grove::detail {
 
-// Weight of the minimum spanning tree of the goals that an agent has yet to visit, by shortest
-// distances. A lower bound, because a path through all of them contains a spanning tree.
-// Consistent: a leg from i to j together with the tree from j spans what the tree from i spans.
-// Caches the weight of every set.
+// Weight of the minimum spanning tree of the goals that an agent has yet to visit, with shortest
+// distances as edge weights. It is a lower bound on the remaining cost, because a path through all
+// these goals contains a spanning tree. It is consistent, because a leg from i to j and the tree
+// from j together span the goals of the tree from i. Caches the weight for every set of goals.
 class SpanningTreeBound {
  public:
   static constexpr int kNowhere = -1;
 
-  // `stops` must outlive this.
+  // `stops` must outlive this object.
   explicit SpanningTreeBound(const AgentStops& stops);
 
-  // The tree over the stops `left`, the destination if there is one, and the stop `at` unless it is
-  // kNowhere. Returns kNever if they cannot be connected.
+  // Weight of the tree over the stops `left`, the destination if there is one, and the stop `at`
+  // unless it is kNowhere. Returns kNever if they cannot be connected.
   Time operator()(StopSet left, int at);
 
  private:
@@ -29,11 +29,11 @@ class SpanningTreeBound {
   Time distance(int from, int to) const;
 
   const AgentStops& stops_;
-  const int destination_;  // number of the destination among the goals; kNowhere: there is none
+  const int destination_;            // number of the destination among the goals, or kNowhere
   std::vector<StopSetIndex> index_;  // by `at` + 1: indices into known_
   std::vector<Time> known_;
-  std::vector<int> outside_;  // goals outside the tree, and (nearest_) their distances to it
-  std::vector<Time> nearest_;
+  std::vector<int> outside_;   // goals outside the tree
+  std::vector<Time> nearest_;  // their distances to the tree
 };
 
 }  // namespace grove::detail

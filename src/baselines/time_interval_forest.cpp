@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 // The time-interval space forest of MGCBS.
 //
-// *Problem.* For one safe interval of a goal: the least number of steps to reach it, from each cell
-// at each time.
+// *Problem.* For one safe interval of a goal, find the least number of steps to reach it from each
+// cell at each time.
 //
-// *Method.* Backward breadth-first search in pieces (cell, interval of times) of equal answers.
-// From a piece of k steps at times [b, e], each neighbor, and the cell itself by waiting, takes k +
-// 1 steps at those times of [b - 1, e - 1] at which it is safe, the move is not forbidden, and
-// nothing shorter is known. So each piece is final when it is made, pieces are made in order of
-// their steps, and a cell without a constraint nearby is one piece. A tree depends neither on the
-// time when the leg begins nor on what was visited before, so all legs of one low-level call to the
-// same target share it.
+// *Method.* Backward breadth-first search in pieces. A piece is a cell and an interval of times
+// with the same answer. A piece of k steps at times [b, e] gives k + 1 steps to each neighbour, and
+// to the cell itself by waiting, at those times in [b - 1, e - 1] at which the cell is safe, the
+// move is not forbidden, and no smaller number is known. So each piece is final when it is made,
+// pieces are made in order of their steps, and a cell without a constraint nearby is one piece. A
+// tree depends neither on the time when a leg starts nor on the goals visited before, so all legs
+// of one low-level call to the same target share it.
 //
-// *Limits.* Waiting for an interval that begins late makes one piece per cell for every time step
-// before its begin, as in the published code.
+// *Limits.* If a target interval begins late, waiting for it makes one piece per cell for every
+// time step before its begin, as in the published code.
 #include "baselines/time_interval_forest.h"
 
 #include <algorithm>
@@ -60,7 +60,8 @@ void TimeIntervalForest::append(Cell from, Time time, Target target, Path& path)
   }
 }
 
-// Returns the tree of the target. Returns nullptr if a limit was reached.
+// Returns the tree of `target`, which is built on first use. Returns nullptr if a limit was
+// reached.
 const TimeIntervalForest::Tree* TimeIntervalForest::tree_to(Target target, const Limits& limits) {
   std::int32_t& number = tree_of_[target.slot];
   if (number == kNone) {
@@ -89,7 +90,8 @@ bool TimeIntervalForest::grow(Tree& tree, int slot, const Limits& limits) {
   return true;
 }
 
-// Covers the neighbor `from` at the times at which the move is not forbidden.
+// Covers the neighbour `from` of the piece `next` at the times at which the move into the piece is
+// not forbidden.
 void TimeIntervalForest::reach_by_move(Tree& tree, Cell from, std::int32_t next) {
   const Piece piece = tree.pieces[next];
   const Time end = before(piece.end);
@@ -166,8 +168,8 @@ void TimeIntervalForest::sort_pieces(Tree& tree) const {
               });
 }
 
-// Returns the piece of `cell` that contains `time`, nullptr if the target cannot be reached from
-// there.
+// Returns the piece of `cell` that contains `time`, or nullptr if the target cannot be reached from
+// `cell` at that time.
 const TimeIntervalForest::Piece* TimeIntervalForest::find(const Tree& tree, Cell cell,
                                                           Time time) const {
   const auto first = tree.by_cell.begin() + tree.first_of[cell];

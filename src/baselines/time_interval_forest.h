@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Leg planner of MGCBS (Tang et al., IJCAI 2024): one tree of time intervals for each safe interval
-// of a goal, used for every leg to it.
+// of a goal, which serves every leg to that interval.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace grove::detail {
 
-// Described in time_interval_forest.cpp.
+// The method is described at the head of time_interval_forest.cpp.
 class TimeIntervalForest : public Legs {
  public:
-  // `world` must outlive this.
+  // `world` must outlive this object.
   explicit TimeIntervalForest(const World& world) : world_(world) {}
 
   void begin(const AgentStops& stops, const SafeIntervals& intervals,
@@ -23,8 +23,8 @@ class TimeIntervalForest : public Legs {
   std::int64_t expanded() const override { return expanded_; }
 
  private:
-  // An agent that is on `cell` at a time in [begin, end] needs `steps` steps to the target, the
-  // first of them into the piece `next`.
+  // An agent that is on `cell` at a time in [begin, end] needs `steps` steps to the target. The
+  // first of them leads into the piece `next`.
   struct Piece {
     Cell cell;
     Time begin;
@@ -33,18 +33,18 @@ class TimeIntervalForest : public Legs {
     std::int32_t next;
   };
   struct Tree {
-    std::vector<Piece> pieces;           // by steps
+    std::vector<Piece> pieces;           // in ascending order of steps
     std::vector<std::int32_t> by_cell;   // pieces, sorted by cell and begin
     std::vector<std::int32_t> first_of;  // by cell: index of its first piece in by_cell
   };
-  // Arrival times at which a move is forbidden.
+  // A move, and the arrival times [begin, end] at which it is forbidden.
   struct BarredMove {
     Cell to;
     Cell from;
     Time begin;
     Time end;
   };
-  // Safe times of a cell that no piece covers yet.
+  // Safe times [begin, end] of a cell that no piece covers yet. The gaps of a cell form a list.
   struct Gap {
     Time begin;
     Time end;
@@ -67,12 +67,12 @@ class TimeIntervalForest : public Legs {
 
   // Set by begin().
   const SafeIntervals* intervals_ = nullptr;
-  std::vector<BarredMove> barred_moves_;  // by (to, from, begin)
+  std::vector<BarredMove> barred_moves_;  // sorted by (to, from, begin)
   std::vector<Tree> trees_;               // the first used_ are in use
   std::size_t used_ = 0;
   std::vector<std::int32_t> tree_of_;  // by slot: its tree, or kNone
 
-  // Of the tree under construction.
+  // State of the tree under construction.
   std::vector<Gap> gaps_;
   std::vector<std::int32_t> first_gap_;  // by cell
 };

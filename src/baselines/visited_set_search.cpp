@@ -3,17 +3,20 @@
 // 2024): one A* over (cell, time, tasks left).
 //
 // A task is visited as soon as the agent is on it. This costs nothing and excludes no continuation,
-// so it keeps the search exact. What remains to be shown:
+// so the search stays exact. It remains to show:
 //
-// - *Heuristic.* The distance to the nearest task left, and from there a path through all that is
-//   left (and the destination), which is at least their minimum spanning tree. Consistent: a step
-//   changes the distance by at most one. Visiting task i, where the distance is 0, replaces the
-//   tree by the tree without i, and adding an edge from i to the nearest task left to the latter
-//   connects i again. If nothing is left: the distance to the destination, or to any own task.
-// - *End.* On the destination, or, if there is none, on any own task, where no constraint forbids
-//   the agent to stay for ever.
+// - *Heuristic.* If tasks are left, h is the distance to the nearest task left plus the weight of
+//   the minimum spanning tree of all tasks left and the destination. It is a lower bound, because
+//   the agent first goes to some task left and from there takes a path through all these goals. It
+//   is consistent for two reasons. A step changes the distance by at most one. A visit of task i,
+//   where the distance is 0, replaces the tree by the tree without i; with an edge from i to the
+//   nearest task left, the new tree spans i again. If no task is left, h is the distance to the
+//   destination or, if there is none, to the nearest own task.
+// - *End.* The agent finishes on its destination or, if it has none, on any own task, if no
+//   constraint forbids it to stay there for ever.
 // - *Finitely many states.* From the time on at which the constraints are constant, all times are
-//   one state, which keeps the earliest time. So the search proves that an agent has no path.
+//   one state, which keeps the earliest time. The search can therefore prove that an agent has no
+//   path.
 #include "baselines/visited_set_search.h"
 
 #include <algorithm>
@@ -90,7 +93,7 @@ void VisitedSetSearch::reach(Cell cell, Time time, StopSet left, std::int32_t pa
               {.slot = static_cast<std::int32_t>(id), .time = time});
 }
 
-// Lower bound on the cost from there.
+// Lower bound on the remaining cost from `cell` with the tasks `left`.
 Time VisitedSetSearch::min_cost(Cell cell, StopSet left) {
   if (left == 0 && stops_->destination()) return stops_->to_rest(cell);
   Time nearest = kNever;

@@ -13,10 +13,10 @@
 
 namespace grove::detail {
 
-// Described in visited_set_search.cpp.
+// The method is described at the head of visited_set_search.cpp.
 class VisitedSetSearch : public BaselineSearch {
  public:
-  // `world` must outlive this.
+  // `world` must outlive this object.
   explicit VisitedSetSearch(const World& world) : world_(world), intervals_(world) {}
 
   std::int64_t expanded() const override { return expanded_; }
@@ -45,12 +45,12 @@ class VisitedSetSearch : public BaselineSearch {
   BucketQueue queue_;
   std::int64_t expanded_ = 0;
 
-  // Of the call in progress.
+  // State of the call in progress.
   const AgentStops* stops_ = nullptr;
   SpanningTreeBound* bound_ = nullptr;
   Time static_from_ = 0;
-  StopSetIndex sets_;   // numbers of the sets found
-  StopSetIndex index_;  // (number of the set, time, cell) as one key: into labels_
+  StopSetIndex sets_;   // numbers of the sets `left` found so far
+  StopSetIndex index_;  // index in labels_; the key combines number of the set, time and cell
   std::vector<Label> labels_;
 };
 

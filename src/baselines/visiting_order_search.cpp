@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
-// A* over the visiting orders of one agent. A label is (goals left, goal that the agent stands on,
-// safe interval in which it stands there), with the earliest known time. An edge is a leg, whose
-// duration the leg planner returns (legs.h). The heuristic is the minimum spanning tree of the
-// goals left.
+// A* over the visiting orders of one agent. A label is (goals left, goal on which the agent stands,
+// safe interval in which it stands there), with the earliest known time. An edge is a leg; the leg
+// planner returns its duration (legs.h). The heuristic is the minimum spanning tree of the goals
+// left.
 //
 // *Source.* As published, the middle level of HCBS (Surynek, AAAI 2021) has one label per (goals
 // left, goal) and uses each leg's earliest arrival. This is neither optimal nor complete: an agent
-// that arrives early may be trapped before a constraint begins that an agent arriving later avoids
-// by waiting elsewhere. Tang et al. (2024) observe this and make the goal's safe interval part of
-// the label: their MGCBS. Here both methods are exact, with the labels of MGCBS, and differ only in
-// how legs are found.
+// that arrives early can be trapped by a constraint that begins later, while an agent that waits
+// elsewhere and arrives later avoids it. Tang et al. (2024) observe this and make the goal's safe
+// interval part of the label in their MGCBS. Here both methods are exact, use the labels of MGCBS,
+// and differ only in the way in which legs are found.
 //
-// *Claim: one time per label is enough.* Inside a safe interval the agent may wait, so an earlier
-// arrival can do, after waiting, whatever a later one does.
+// *Claim: one time per label is enough.* The agent can wait within a safe interval. After an
+// earlier arrival and a wait it can therefore do whatever it can do after a later arrival.
 //
-// *Claim: it is enough to start each leg from a goal.* Cut a path where it is on its goals, once on
-// each, in any order that these moments allow: each piece is a leg between two of them. A leg may
-// pass other goals. These are then visited once more, or another order counts them there. So the
+// *Claim: it is enough to start each leg from a goal.* For each goal, take one moment at which the
+// path is on it, and cut the path at these moments. Each piece is a leg between two goals. A leg
+// may pass other goals; these are visited once more, or a different order counts them there. So the
 // agent's best path is a sequence of legs, and every sequence of legs is a path.
 //
-// *End.* With a destination, the leg to it comes when no stop is left. Without one, the agent rests
-// on a stop of its own, which is counted last. So the last goal must be reached in an interval in
-// which the agent may stay for ever. The other goals only have to be reached.
+// *End.* With a destination, the leg to it follows when no stop is left. Without one, the agent
+// rests on a stop of its own, which is counted last. So the last goal must be reached in an
+// interval in which the agent may stay for ever. The other goals only have to be reached.
 #include "baselines/visiting_order_search.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ PathOutcome VisitingOrderSearch::search(const AgentStops& stops, const PathQuery
   return run(query.cutoff, limits, path);
 }
 
-// Returns false if the start is forbidden at time 0, so that there is no path.
+// Returns false if the start is forbidden at time 0, in which case there is no path.
 bool VisitingOrderSearch::prepare(const AgentStops& stops,
                                   std::span<const Constraint> constraints) {
   stops_ = &stops;
@@ -121,7 +121,7 @@ void VisitingOrderSearch::expand(std::int32_t id, const Limits& limits) {
   if (left == 0 && !ends_anywhere) go_to(stops_->count(), 0, id, true, limits);
 }
 
-// Adds the legs to one goal. `to_rest`: it is the last goal.
+// Adds the legs from label `from` to `goal`. `to_rest`: the goal is the last one.
 void VisitingOrderSearch::go_to(int goal, StopSet left, std::int32_t from, bool to_rest,
                                 const Limits& limits) {
   const std::int32_t row = row_of(left);

@@ -14,10 +14,10 @@
 
 namespace grove::detail {
 
-// Described in visiting_order_search.cpp.
+// The method is described at the head of visiting_order_search.cpp.
 class VisitingOrderSearch : public BaselineSearch {
  public:
-  // `world` must outlive this.
+  // `world` must outlive this object.
   VisitingOrderSearch(const World& world, std::unique_ptr<Legs> legs);
 
   std::int64_t expanded() const override { return expanded_ + legs_->expanded(); }
@@ -42,8 +42,8 @@ class VisitingOrderSearch : public BaselineSearch {
   bool is_finish(std::int32_t id) const;
   void write_path(std::int32_t finish, Path& path);
 
-  // A label is a row (the set of stops left) and a column (the target that the agent stands on).
-  // Column 0 is the start.
+  // The number of a label combines a row (the set of stops left) and a column (the target that the
+  // agent stands on). Column 0 is the start.
   std::int32_t row_of(StopSet left);
   StopSet left_of(std::int32_t id) const { return lefts_[id / columns()]; }
   int column_of(std::int32_t id) const { return id % columns(); }
@@ -59,13 +59,13 @@ class VisitingOrderSearch : public BaselineSearch {
   BucketQueue queue_;
   std::int64_t expanded_ = 0;
 
-  // Of the call in progress.
+  // State of the call in progress.
   const AgentStops* stops_ = nullptr;
   std::vector<Legs::Target> targets_;  // by column
-  std::vector<int> first_target_;      // by goal: its targets are [first, next goal's first)
-  StopSetIndex rows_;
-  std::vector<StopSet> lefts_;  // by row
-  std::vector<Label> labels_;   // row by row
+  std::vector<int> first_target_;  // by goal: column of its first target; one more entry at the end
+  StopSetIndex rows_;              // row by set of stops left
+  std::vector<StopSet> lefts_;     // by row
+  std::vector<Label> labels_;      // row by row
 };
 
 }  // namespace grove::detail

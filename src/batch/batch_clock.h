@@ -8,8 +8,8 @@
 namespace grove::detail::batch {
 
 struct BatchClock {
-  std::function<double()> seconds;   // since a fixed moment; monotonic
-  std::function<std::string()> utc;  // as 2026-11-30T23:59:59Z
+  std::function<double()> seconds;   // elapsed since some fixed moment; monotonic
+  std::function<std::string()> utc;  // current time, such as 2026-11-30T23:59:59Z
 };
 
 // The clocks of the machine.

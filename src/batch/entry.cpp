@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint64_t kPrime = 0x100000001b3;
 
-// Extends the hash by `text` and a zero byte.
+// Continues the hash with `text` and a zero byte.
 std::uint64_t extended(std::uint64_t hash, std::string_view text) {
   for (const char byte : text) hash = (hash ^ static_cast<unsigned char>(byte)) * kPrime;
   return hash * kPrime;

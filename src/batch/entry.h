@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An instance of a batch: its id, where its files are, and its digest.
+// An instance of a batch: its id, the paths of its files, and its digest.
 #pragma once
 
 #include <string>
@@ -26,10 +26,10 @@ struct Entry {
 // Reads the instance of `entry`. Throws InputError.
 LoadedInstance load(const Entry& entry);
 
-// Detects whether an instance has changed since it was solved: 64 bits, as hexadecimal digits, a
-// hash of fingerprint() and of the ids of agents and tasks, which plans refer to. It does not
-// depend on the location and layout of the files. It detects changes but not deliberate collisions
-// (FNV-1a).
+// Digest that shows whether an instance has changed since it was solved: a 64-bit hash, as
+// hexadecimal digits, of fingerprint() and of the ids of agents and tasks, which plans refer to. It
+// does not depend on the location and layout of the files. It detects changes but not deliberate
+// collisions (FNV-1a).
 std::string instance_digest(const Instance& instance);
 
 }  // namespace grove::detail::batch

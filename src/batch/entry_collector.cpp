@@ -21,7 +21,7 @@ std::string without_suffix(std::string name) {
   return name;
 }
 
-// Returns "" for an invalid instance. Its row will report the error.
+// Returns "" for an invalid instance; the row of the instance will report the error.
 std::string digest_of(const Entry& entry) {
   try {
     return instance_digest(load(entry).instance);

@@ -14,22 +14,23 @@ namespace grove::detail::batch {
 
 inline constexpr std::string_view kInstanceSuffix = ".cts.json";
 
-// The id of an instance that was found in `folder`, or by a manifest in `folder`. It contains no
-// "..", because files below the output folder are named after it. For an instance outside `folder`
-// it consists of the file's name and the name of the file's folder only, because the full path
-// describes the machine rather than the instance. `agents`: number of agents of a scenario; else 0.
+// The id of an instance that was found in `folder`, or by a manifest in `folder`. Files below the
+// output folder are named after the id, so it contains no "..". For an instance outside `folder` it
+// consists only of the file's name and the name of the file's folder, because the full path would
+// describe the machine rather than the instance. `agents`: number of agents of a scenario; else 0.
 std::string id_of(const std::filesystem::path& path, const std::filesystem::path& folder,
                   int agents);
 
 // Collects entries and rejects invalid ones.
 class EntryCollector {
  public:
-  // `source`: the manifest or the folder, for messages.
+  // `source`: the manifest or the folder, for error messages.
   EntryCollector(std::filesystem::path source, const InputRules& rules)
       : source_(std::move(source)), rules_(rules) {}
 
-  // Adds an entry and computes its digest. `place`: the origin of the entry, for messages: a line
-  // of a manifest, or a file of a folder. Throws InputError.
+  // Adds an entry and computes its digest. `place`: the origin of the entry for error messages: a
+  // line of a manifest, or a file in a folder. Throws InputError if the id is unsuitable as a file
+  // name, or if the instance or its id is already present.
   void add(Entry entry, const std::string& place);
   std::vector<Entry> take() { return std::move(entries_); }
 

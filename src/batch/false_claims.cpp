@@ -10,13 +10,13 @@
 namespace grove::detail::batch {
 namespace {
 
-using InstanceKey = std::pair<std::string, std::string>;  // its id and digest
+using InstanceKey = std::pair<std::string, std::string>;  // id and digest of the instance
 
-// The rows with the strongest results on an instance; nullptr: there is none.
+// The rows with the strongest results on an instance; nullptr if there is no such row.
 struct BestResults {
   const Row* cheapest = nullptr;    // the cheapest plan that was re-checked
   const Row* highest = nullptr;     // the highest lower bound that Grove has proven
-  const Row* infeasible = nullptr;  // Grove has proven that there is no plan
+  const Row* infeasible = nullptr;  // a row in which Grove has proven that there is no plan
 };
 
 InstanceKey key_of(const Row& row) {
@@ -46,7 +46,7 @@ std::map<InstanceKey, BestResults> best_results(std::span<const Row> rows) {
   return all;
 }
 
-// The contradiction to the claimed cost; empty: none is known.
+// Describes what contradicts the claimed cost; empty if nothing does.
 std::string against_cost(const Row& row, const BestResults& known) {
   const Outcome& outcome = row.outcome;
   if (!outcome.claimed_cost) return "";

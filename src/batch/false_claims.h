@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds claims in the rows of a table that contradict other rows.
+// Finds claims in the rows of a result table that contradict other rows.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ namespace grove::detail::batch {
 struct FalseClaim {
   std::string method;
   std::string instance;
-  std::string what;  // "claims a cost of 60, but its own paths cost 64"
+  std::string what;  // for example "claims a cost of 60, but its own paths cost 64"
 
   friend bool operator==(const FalseClaim&, const FalseClaim&) = default;
 };

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The number in a word that begins with `letter`: 12 for "s12" and 's'. Returns nullopt for any
+// The number in a word that starts with `letter`: 12 for "s12" and 's'. Returns nullopt for any
 // other word.
 std::optional<std::int64_t> numbered(std::string_view word, char letter) {
   if (!word.starts_with(letter)) return std::nullopt;

@@ -23,7 +23,7 @@ std::optional<typename Map::mapped_type> find(const Map& map, const char* name) 
   return it == map.end() ? std::nullopt : std::optional(it->second);
 }
 
-// The counters that are not 0 and have no column.
+// The counters that are not 0 and have no column in the result table.
 std::string other_counts(const Stats& stats) {
   constexpr std::array<std::string_view, 7> kColumns{
       "roots_generated", "rtsp_calls", "nodes_expanded", "low_level_calls", "seed",
@@ -36,7 +36,7 @@ std::string other_counts(const Stats& stats) {
   return text;
 }
 
-// The error in the claim; empty: none.
+// Describes what is wrong with the solution; empty if nothing is.
 std::string mistake(const Instance& instance, const Solution& solution) {
   if (!solution.plan) {
     if (solution.status == Status::kUnknown || solution.status == Status::kInfeasible) return "";

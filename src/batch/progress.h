@@ -10,7 +10,7 @@
 
 namespace grove::detail::batch {
 
-// The state of a computation that consists of pieces, which several workers compute.
+// The state of a computation that consists of pieces computed by several workers.
 struct Workload {
   int done = 0;            // pieces completed
   int left = 0;            // pieces not completed, including those in progress
@@ -19,40 +19,40 @@ struct Workload {
   double under_way_s = 0;  // total time so far of the pieces in progress
 };
 
-// The expected time per piece. Returns nullopt before the first piece is completed. Assumes an
-// exponential distribution of the times: the mean is the total time, including the time of pieces
-// in progress, divided by the number of completed pieces. (Without pieces in progress the estimate
-// would be too low, because the easy pieces are completed first.)
+// The expected time per piece, in seconds. Returns nullopt before the first piece is completed. It
+// assumes that the times are exponentially distributed: the mean is the total time, including the
+// time of pieces in progress, divided by the number of completed pieces. (Without the time of
+// pieces in progress the estimate would be too low, because easy pieces are completed first.)
 std::optional<double> seconds_each(const Workload& work);
-// The expected remaining time. Returns nullopt before the first piece is completed.
+// The expected remaining time, in seconds. Returns nullopt before the first piece is completed.
 std::optional<double> seconds_left(const Workload& work);
 
 // Text such as "1:02:03" or "2:03", in whole seconds.
 std::string duration_text(double seconds);
 
-// The displayed progress: numbers of completed and of all pieces, and a text.
+// The displayed progress: the numbers of completed pieces and of all pieces, and a text.
 struct ProgressText {
   int done = 0;
   int total = 0;
   std::string line;
 };
-// The text after a progress bar, in at most `columns` columns. A long text has no bar or is
-// truncated.
+// The text behind a progress bar, in at most `columns` columns. If the text is long, the bar is
+// omitted or the text is truncated.
 std::string with_bar(const ProgressText& text, int columns);
 
-// The form of the display.
+// Form of the display.
 struct ProgressStyle {
-  bool terminal = false;  // a bar that is redrawn; else a line from time to time
+  bool terminal = false;  // redraw a bar; false: write a line now and then
   int columns = 80;
   std::function<void(std::string_view)> write;
 };
 
-// Displays progress at limited frequency. One thread at a time.
+// Displays progress, at a limited frequency. One thread at a time.
 class ProgressDisplay {
  public:
   explicit ProgressDisplay(ProgressStyle style) : style_(std::move(style)) {}
 
-  // True if the display is due `elapsed_s` seconds after the beginning.
+  // True if the display is due `elapsed_s` seconds after the start.
   bool is_due(double elapsed_s) const { return elapsed_s >= next_s_; }
   void show(double elapsed_s, const ProgressText& text);
   // Displays the final state.

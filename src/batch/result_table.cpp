@@ -46,8 +46,8 @@ std::string limit_text(std::optional<double> gigabytes) {
   return gigabytes ? fmt::format("{} GB", *gigabytes) : "by the machine";
 }
 
-// The differences, such as "seed '1' there, '2' here; time limit '60' there, '180' here"; empty:
-// none that matters.
+// Describes the relevant differences, such as "seed '1' there, '2' here; time limit '60' there,
+// '180' here"; empty if there is none.
 std::string differences(const Run& there, const Run& here, TableOf table) {
   std::vector<std::string> texts;
   const auto compare = [&](const char* what, const auto& a, const auto& b) {
@@ -137,7 +137,7 @@ std::vector<std::size_t> ResultTable::begin(const std::vector<Run>& runs) {
   return left;
 }
 
-// Of two rows of one pair, which only manual editing can produce, the later one is kept.
+// If a pair has two rows, which only manual editing can cause, keeps the later one.
 void ResultTable::erase_rows_of(const std::vector<Pair>& pairs) {
   for (const Pair& pair : pairs) index_.erase(pair);
   std::vector<Row> kept;
@@ -172,7 +172,7 @@ void ResultTable::defer_started_runs(std::vector<std::size_t>& left, const std::
   if (kept != text) write_file_atomically(begun_file(), kept);
 }
 
-// Not flushed, because a system crash is not caused by the instance.
+// Does not flush, because an instance does not cause a system crash.
 void ResultTable::mark_started(const Run& run) {
   if (!begun_) begun_.emplace(begun_file());
   begun_->append(run.instance + "\n");

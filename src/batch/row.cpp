@@ -38,7 +38,7 @@ Json ratio(std::optional<Cost> numerator, std::optional<Cost> denominator) {
   return rounded(static_cast<double>(*numerator) / static_cast<double>(*denominator));
 }
 
-// (cost - lower bound) / lower bound. Null if the lower bound is 0 and the cost is not.
+// (cost - lower bound) / lower bound. Returns null if the lower bound is 0 and the cost is not.
 Json gap(const Outcome& outcome) {
   if (!outcome.cost || !outcome.lower_bound) return nullptr;
   if (*outcome.cost == *outcome.lower_bound) return 0.0;
@@ -106,7 +106,7 @@ std::optional<Value> optional_member(const nlohmann::json& json, const char* key
   return value.get<Value>();
 }
 
-// Reads a column that older tables do not have.
+// Reads a column that older tables lack; nullopt if it is missing.
 template <typename Value>
 std::optional<Value> later_member(const nlohmann::json& json, const char* key) {
   return json.contains(key) ? optional_member<Value>(json, key) : std::nullopt;
@@ -133,7 +133,7 @@ InstanceMetadata metadata_of(const nlohmann::json& json) {
           .problem = text_member(json, "problem")};
 }
 
-// Tables of before 0.1 have other words for two statuses.
+// Tables from before version 0.1 use different words for two statuses.
 std::string current_status(const std::string& status) {
   if (status == "wrong") return kInvalidPlan;
   if (status == "unsuitable") return kUnsupported;

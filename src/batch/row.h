@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A row of the table of results: what is stored of one run of a method on an instance.
+// A row of the result table: the stored data of one run of a method on an instance.
 //
 // Columns, in the order of the file. A missing value is null or empty. Times are in seconds, costs
 // in steps, memory in MB (1e6 bytes).
@@ -24,22 +24,23 @@
 //     roots, rtsp_calls, nodes, low_level_calls     as in the plan file
 //     peak_memory_mb                 as in the plan file; other solvers: measured by the system
 //     version, machine, ended_at     of Grove; processor and cores; UTC
-//     error                          why the status is error, or the limit that was reached
+//     error                          why there is no better status, or the limit that was reached
 //     ranks, threads                 number of ranks; threads of each rank
 //     memory_limit_gb                missing: limited by the machine
 //     plan_file                      relative to the table's folder; missing: no plan was kept
 //     instance_digest                detects whether an instance has changed
-//     counts                         other counters: "bypasses=2 joint_mdd_nodes=77", named as in
-//     the
-//                                    plan file, without zeros
+//     counts                         other counters, without zeros, named as in the plan file:
+//                                    "bypasses=2 joint_mdd_nodes=77"
 //     solver                         adapter of another solver; missing: Grove
 //     claimed_cost, claimed_lower_bound, claimed_s     claims of another solver: plan and time
-//     anytime                        it runs until its time limit, which is not a failure
+//     anytime                        the run uses its whole time limit, which is not a failure
 //     trace                          the plans found on the way, as reported by the run, up to the
 //                                    one that was re-checked: "0.25:120:100 1.5:118:-" (seconds,
 //                                    cost, bound)
+//     certified, verify_s, proof_bytes     whether a separate program accepted the certificate;
+//                                    time of this check; size of the certificate
 //
-// Older tables lack the columns from counts on.
+// Tables from older versions lack the columns from counts on, or the last ones of these.
 #pragma once
 
 #include <algorithm>
@@ -53,12 +54,12 @@
 
 namespace grove::detail::batch {
 
-// All inputs of a run except for the instance. Two runs with equal inputs should have equal
-// results.
+// All inputs of a run except for the instance. Two runs of an instance with equal settings should
+// have equal results.
 struct Settings {
   std::string method;
-  std::string options;  // without those that have a member below
-  std::string omega;    // value that results from the options: 0, 0.01, inf
+  std::string options;  // as typed, without those that have a member below
+  std::string omega;    // effective value, such as 0, 0.01 or inf
   std::int64_t seed = 0;
   double time_limit_s = 0;
   std::optional<double> memory_limit_gb = {};  // nullopt: limited by the machine
@@ -80,15 +81,15 @@ struct Row {
   InstanceMetadata facts = {};
   Outcome outcome = {};
   std::optional<Cost> root_cost = {};
-  double wall_s = 0;  // microseconds in files
+  double wall_s = 0;  // rounded to microseconds in files
   std::string machine = {};
-  std::string ended_at = {};  // UTC, as 2026-11-30T23:59:59Z
+  std::string ended_at = {};  // UTC, such as 2026-11-30T23:59:59Z
   std::int64_t ranks = 1;
   std::int64_t threads = 1;
   std::string plan_file = {};
   std::string solver = {};  // empty: Grove
 
-  // As in the paper, an unsolved run counts with its time limit.
+  // The column runtime_s. As in the paper, an unsolved run counts with its time limit.
   double runtime_s() const {
     const double limit = run.settings.time_limit_s;
     if (!outcome.solved) return limit;
@@ -103,7 +104,7 @@ std::string json_line(const Row& row);
 // The inverse of json_line(). Throws std::invalid_argument with a description of the error.
 Row parse_json_line(std::string_view line);
 
-// The same as CSV (RFC 4180). A missing value is empty.
+// The header and a row of a CSV file (RFC 4180), with line ends. A missing value is empty.
 std::string csv_header();
 std::string csv_line(const Row& row);
 

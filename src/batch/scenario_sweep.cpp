@@ -53,7 +53,8 @@ Found look(const fs::path& place) {
   return found;
 }
 
-// Sort key that compares a number at the end by value: "random-32-32-20-random-2" before "...-10".
+// Sort key that compares a trailing number by value: "random-32-32-20-random-2" comes before
+// "random-32-32-20-random-10".
 std::pair<std::string, long> natural(const fs::path& path) {
   const std::string stem = path.stem().string();
   const std::size_t digits = stem.find_last_not_of("0123456789") + 1;
@@ -61,7 +62,7 @@ std::pair<std::string, long> natural(const fs::path& path) {
   return {stem.substr(0, digits), number.empty() ? 0 : std::stol(number)};
 }
 
-// The map in the scenario's folder, or the only one of that name.
+// The map in the scenario's folder or, if there is none, the only map of that name.
 fs::path map_of(const fs::path& scenario, const Found& found,
                 const std::vector<ScenarioRow>& rows) {
   const std::string name = fs::path(rows.front().map).filename().string();

@@ -13,22 +13,23 @@
 namespace grove::detail::batch {
 
 struct ScenarioSweep {
-  std::vector<int> agents;      // in ascending order
+  std::vector<int> agents;      // numbers of agents, in ascending order
   std::string scenarios = "*";  // names without .scen; * matches any text
 };
 
 struct SweptScenarios {
   std::vector<Entry> entries;
-  int too_short = 0;  // scenarios with too few rows for some of the numbers
+  int too_short = 0;  // number of scenarios with too few rows for some numbers of agents
 };
 
-// `place`: FILE.scen, or a folder with such files in it or below, as in Moving AI's archives. The
-// map that a scenario names is the file of that name in the scenario's folder, else the only file
-// of that name in `place` or below. Throws InputError.
+// Lists the instances of a sweep. `place` is FILE.scen, or a folder with such files in it or below,
+// as in Moving AI's archives. The map that a scenario names is the file of that name in the
+// scenario's folder; if there is none, it is the only file of that name in `place` or below. Throws
+// InputError if a file cannot be read, a map is missing or ambiguous, or no instance results.
 SweptScenarios read_scenarios(const std::filesystem::path& place, const ScenarioSweep& sweep,
                               const InputRules& rules = {});
 
-// True if there are scenarios and no *.cts.json files in `place` or below.
+// True if `place` is a scenario, or has scenarios but no *.cts.json files in it or below.
 bool holds_scenarios(const std::filesystem::path& place);
 
 // True if `name` matches `pattern`, for example "room-*-1".

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Two arrays hold the moving agents by place, one for now and one for a step ago, as linked lists.
-// A third one holds the agents that have come to rest, which need not be visited again. Entries
-// carry a stamp that only grows, so the arrays are never cleared.
+// Two arrays hold the moving agents by place, as linked lists: one for the current time and one for
+// the previous time. A third array holds the agents that have come to rest, which are entered only
+// once. Entries carry a stamp that never decreases, so the arrays are never cleared.
 #include "conflicts/conflict.h"
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace grove::detail {
 Split split(const Conflict& c) {
   GROVE_ASSERT(c.first >= 0 && c.first < c.second, "two agents conflict");
   if (c.is_following()) {
-    // Either the leaving agent must not have been there just before, or the follower must not enter
-    // then.
+    // Either the leading agent is not on the place one step earlier, or the follower does not enter
+    // it then.
     const auto bar = [&](AgentIndex agent) {
       const Time time = agent == c.follower ? c.time : c.time - 1;
       return Constraint{c.cell, kNoPlace, time, time};
@@ -75,7 +75,7 @@ void ConflictFinder::step(std::span<const Path> paths, Time time) {
   }
 }
 
-// Sorts the conflicts of one time by `second` ascending, then `first` descending.
+// Reports all vertex conflicts at `time`, sorted by `second` ascending, then `first` descending.
 void ConflictFinder::find_vertex_conflicts(Time time, std::vector<Conflict>& conflicts) {
   const auto first = std::ssize(conflicts);
   for (const AgentIndex agent : moving_) add_vertex_conflicts(agent, time, conflicts);
@@ -85,7 +85,7 @@ void ConflictFinder::find_vertex_conflicts(Time time, std::vector<Conflict>& con
   });
 }
 
-// Enters the agent at its place and reports its vertex conflicts there.
+// Enters the agent at its place and reports the vertex conflicts that it has there.
 void ConflictFinder::add_vertex_conflicts(AgentIndex agent, Time time,
                                           std::vector<Conflict>& conflicts) {
   const Place place = now_[agent];
@@ -104,7 +104,7 @@ void ConflictFinder::add_vertex_conflicts(AgentIndex agent, Time time,
     report(other);
 }
 
-// A resting agent swaps with no other.
+// Reports the swaps of `agent` with agents of greater index. A resting agent swaps with no other.
 void ConflictFinder::find_edge_conflicts(AgentIndex agent, Time time,
                                          std::vector<Conflict>& conflicts) const {
   const Place to = now_[agent];
@@ -116,7 +116,8 @@ void ConflictFinder::find_edge_conflicts(AgentIndex agent, Time time,
     if (agent < other && now_[other] == from) conflicts.push_back({agent, other, to, from, time});
 }
 
-// Agents that stay are vertex conflicts, and agents in the opposite direction are swaps.
+// Reports the following conflicts in which `agent` enters a place. An agent that stays on the place
+// is a vertex conflict, and an agent that moves the opposite way is a swap, so both are skipped.
 void ConflictFinder::find_following_conflicts(AgentIndex agent, Time time,
                                               std::vector<Conflict>& conflicts) const {
   const Place to = now_[agent];

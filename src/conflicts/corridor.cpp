@@ -2,31 +2,32 @@
 // Corridor reasoning (corridor symmetry: Li et al., ICAPS 2020), for agents with several goals.
 //
 // *Problem.* Two agents that meet head on in a corridor conflict at one place. If one of them is
-// barred from there, the conflict moves along by a step: CBS tries all places and times before it
-// finds that one agent must wait until the other is through. Range constraints on the ends of the
-// corridor, as Li et al. use them, would forbid an agent with several goals to return later for
-// another one. Only one *traversal* must be forbidden.
+// barred from this place, the conflict moves along the corridor by a step: CBS tries all places and
+// times before it finds that one agent must wait until the other is through. Range constraints on
+// the ends of the corridor, as in Li et al., would forbid an agent with several goals to return
+// later for a different goal. Only one *traversal* must be forbidden.
 //
-// *Definitions.* A corridor ("chain" in names) has k moves from end to end, and its inner places
-// have two neighbours each. An agent *traverses* it when it moves from one end into it and leaves
-// it at the other end without having left it in between. It arrives at that other end at time p.
+// *Definitions.* A corridor has k moves from end to end, and its inner places have two neighbours
+// each. An agent *traverses* it when it moves from one end into it and leaves it at the other end
+// without having left it in between. It arrives at that other end at time p.
 //
 // *Claim: two traversals in opposite directions that arrive at p and q with |p - q| <= k collide.*
-// *Proof.* Let s <= p - k be a's last time on the end where it enters, and r <= q - k that of b.
-// Both are on the corridor or its ends in I = [max(s, r), min(p, q)]. I is not empty, because s <=
-// p - k <= q and r <= q - k <= p. Number the places 0 .. k in a's direction. At the beginning of I,
-// a is at 0 or b at k; at its end, a is at k or b at 0. So a's place is at most b's at the
-// beginning and at least b's at the end. Per step the difference grows by at most 2. So it is 0 at
-// some time (a vertex conflict), or jumps from -1 to 1 (an edge conflict).
+// *Proof.* Let s <= p - k be a's last time on the end where it enters, and let r <= q - k be the
+// same for b. Both agents are on the corridor or its ends in I = [max(s, r), min(p, q)]. I is not
+// empty, because s <= p - k <= q and r <= q - k <= p. Number the places 0 .. k in a's direction. At
+// the beginning of I, a is at 0 or b at k; at its end, a is at k or b at 0. So a's place is at most
+// b's at the beginning and at least b's at the end. The difference of the places grows by at most 2
+// per step. So it is 0 at some time (a vertex conflict), or jumps from -1 to 1 (an edge conflict).
 //
 // *Consequence.* No pair of times p' in [p, q + k], q' in [q, p + k] is free of collision, because
 // p' - q' <= k and q' - p' <= k. So every conflict-free plan satisfies one of
 //
 //   a does not arrive by traversal in [p, q + k]    |    b does not in [q, p + k].
 //
-// Turning round inside and starting inside are no traversals and stay allowed. Nothing is said
-// about the order of visits or about other passages. Each path of the conflict violates its branch.
-// The split states "which agent passes first" by times only, without labels.
+// Turning round inside and starting inside are not traversals and stay allowed. The split says
+// nothing about the order of visits or about other passages. Each of the two conflicting paths
+// violates the constraint on its agent. The split expresses "which agent passes first" by times
+// only, without labels.
 #include <algorithm>
 #include <array>
 
@@ -47,7 +48,8 @@ bool is_inner(const Corridors& corridors, int corridor, Place place) {
   return corridors.corridor_of(place) == corridor;
 }
 
-// The traversal of corridor `chain` during which the path is inside at `time`.
+// The traversal of `corridor` during which the path is inside at `time`. Returns nullopt if there
+// is none.
 std::optional<Traversal> traversal_at(const World& world, const Corridors& corridors, int corridor,
                                       const Path& path, Time time) {
   const auto place = [&](Time t) { return world.place(path[t]); };
@@ -70,7 +72,7 @@ std::optional<Traversal> traversal_at(const World& world, const Corridors& corri
   return Traversal{from_front, arrival, place(arrival), place(arrival - 1)};
 }
 
-// The traversal that contains `time`, or ends or begins then.
+// The traversal that contains `time`, or starts or ends then. Returns nullopt if there is none.
 std::optional<Traversal> traversal_near(const World& world, const Corridors& corridors,
                                         int corridor, const Path& path, Time time) {
   for (const Time t : {time, time - 1, time + 1})
@@ -99,7 +101,7 @@ std::optional<Split> split_on(const Conflict& conflict, std::span<const Path> pa
 std::optional<Split> corridor_split(const Conflict& conflict, std::span<const Path> paths,
                                     const World& world, const Corridors& corridors) {
   if (conflict.is_following()) return std::nullopt;
-  // The places of both agents or, if they meet on an end, the places they came from.
+  // The places of both agents or, if they meet on an end, the places from which they came.
   const std::array<Place, 4> places{
       conflict.cell, conflict.is_swap() ? conflict.from : conflict.cell,
       place_at(world, paths[conflict.first], std::max(0, conflict.time - 1)),

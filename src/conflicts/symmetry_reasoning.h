@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Splits by symmetry reasoning, one function per kind of conflict. The proof that no plan is lost
-// is at the head of the named file.
+// Splits from symmetry reasoning, one function per kind of conflict. The comment on each function
+// names the file whose head proves that no plan is lost.
 #pragma once
 
 #include <optional>
@@ -11,15 +11,16 @@
 
 namespace grove::detail {
 
-// Target reasoning, if one agent of the conflict has come to rest where the other passes: the split
-// "it does not come to rest there by then | it does, and no other agent is there from then on". See
-// target.cpp.
+// Target reasoning (target.cpp). If one agent of the conflict has come to rest on the place where
+// the other agent passes, returns the split "the agent does not come to rest there by that time |
+// it does, and no other agent is there from then on"; otherwise nullopt.
 std::optional<Split> target_split(const Conflict& conflict, std::span<const Path> paths,
                                   const World& world, const Corridors& corridors);
 
-// Corridor reasoning, if the two agents of the conflict meet while they traverse a corridor in
-// opposite directions: the split "one agent does not leave it at its far end at these times | the
-// other does not at its own". See corridor.cpp.
+// Corridor reasoning (corridor.cpp). If the two agents of the conflict meet while they traverse a
+// corridor in opposite directions, returns the split "one agent does not arrive at its far end in
+// its time range | the other agent does not arrive at the opposite end in its own"; otherwise
+// nullopt.
 std::optional<Split> corridor_split(const Conflict& conflict, std::span<const Path> paths,
                                     const World& world, const Corridors& corridors);
 

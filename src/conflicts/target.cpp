@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Target reasoning (Li, Harabor, Stuckey, Ma, Gange and Koenig, AIJ 2021), without its
-// labels, for agents with several goals.
+// Target reasoning (Li, Harabor, Stuckey, Ma, Gange and Koenig, AIJ 2021), without the labels used
+// there, for agents with several goals.
 //
 // *Problem.* Agent a stays on place v for ever from time f on, and b passes v at t >= f. The
 // standard split bars a from v at t, so that a arrives later or steps aside and returns, or it bars
-// b; the same repeats for t + 1, t + 2, ... The following split resolves all of these conflicts at
-// once:
+// b from v at t. The same conflict then occurs at t + 1, t + 2, ... The following split resolves
+// all of these conflicts at once:
 //
 //   kNoRestBy: a does not arrive at v for good at t or earlier;
 //   kRestBy:   a arrives at v for good at t or earlier. Then a is on v at every time from t on, so
@@ -14,7 +14,7 @@
 // *Claim: no plan is lost.* The two constraints are each other's negation, whatever the agents'
 // orders of visits, and whether a has a destination or may end on any of its tasks. *Claim: both
 // children differ from the parent.* The path of a violates the first constraint, and the path of b
-// violates what follows from the second.
+// violates the constraint on b that follows from the second.
 #include "conflicts/symmetry_reasoning.h"
 
 namespace grove::detail {

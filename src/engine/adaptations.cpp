@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// CTS-CBS-B and CTS-CBS-C, and what they prove.
+// CTS-CBS-B and CTS-CBS-C, and the bounds that they prove.
 //
-// B. A plan of the instance with destinations is a plan of the instance without: its agents rest on
-// tasks of their own. The converse is false. So the lower bound of B's search, or its proof of
-// infeasibility, holds only for these destinations. The only bound that B reports for the instance
-// is the bound that came with the choice (destinations.h): the sum of the agents' best sequence
-// costs, wherever they end. B ends when its own search is within w of its own bound. The status
-// compares with the reported bound, so it may be `feasible`.
+// B searches the instance with chosen destinations. A plan of that instance is a plan of the
+// original instance, because its agents rest on tasks of their own. The converse is false, so the
+// lower bound of B's search, or its proof of infeasibility, holds only for these destinations. The
+// only bound that B reports for the original instance is the one returned with the choice
+// (destinations.h): the sum of the agents' best sequence costs, wherever they end. B's search ends
+// when its plan is within w of the search's own bound. The reported status refers to the reported
+// bound, so it can be `feasible`.
 //
-// C runs two searches of one instance. The better plan and the greater bound are reported.
+// C runs two searches, A and B, for one instance, and reports the better plan and the greater
+// bound.
 #include "engine/adaptations.h"
 
 #include <fmt/format.h>
@@ -29,7 +31,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kShareOfFirst = 2.0 / 3;  // of the time; paper, section V-B
+constexpr double kShareOfFirst = 2.0 / 3;  // of the time; see paper, section V-B
 
 // Forwards the events of several consecutive searches to one observer, as if they were one search.
 class MergedObserver {
@@ -53,7 +55,7 @@ class MergedObserver {
     ends_ = event == RunEvent::kEnd;
     if (!ends_) next_.on_event(is_news ? event : RunEvent::kProgress, last_);
   }
-  // Always request the statistics at the end of a search: they are added to those of later
+  // Always requests the statistics at the end of a search, because they are added to those of later
   // searches.
   bool wants_statistics() { return ends_ || next_.wants_statistics(); }
   void statistics(RunStatistics statistics) {
@@ -82,7 +84,7 @@ class MergedObserver {
   }
 
   RunObserver& next_;
-  Progress before_;  // at the beginning of the current search
+  Progress before_;  // at the start of the current search
   Progress last_;
   std::map<std::string, std::int64_t> done_;  // counts of the earlier searches
   bool is_better_ = false;
@@ -90,7 +92,7 @@ class MergedObserver {
   bool ends_ = false;  // a search is ending
 };
 
-// Observer of a search of the instance itself.
+// Observer of a search of the original instance (A).
 class Stage : public RunObserver {
  public:
   explicit Stage(MergedObserver& merged) : merged_(merged) { merged.begin_search(); }
@@ -112,7 +114,7 @@ class Stage : public RunObserver {
 
  private:
   virtual Plan of_whole(const Plan& plan) const { return plan; }
-  // Bound that a bound of this search proves for the instance.
+  // The bound on the original instance that a bound of this search proves.
   virtual Cost proven_by(Cost bound) const { return bound; }
 
   Progress of_whole(Progress progress) const {
@@ -123,14 +125,15 @@ class Stage : public RunObserver {
   MergedObserver& merged_;
 };
 
-// Observer of a search of the instance with destinations.
+// Observer of a search of the instance with chosen destinations (B).
 class StageOfB : public Stage {
  public:
   StageOfB(MergedObserver& merged, const Instance& instance, const Destinations& destinations)
       : Stage(merged), instance_(instance), destinations_(destinations) {}
 
-  void on_infeasible(std::string_view) override {}  // holds only for these destinations
-  void on_bound_beside(BoundSource) override {}     // the same
+  // Not forwarded, because these results hold only for the chosen destinations.
+  void on_infeasible(std::string_view) override {}
+  void on_bound_beside(BoundSource) override {}
 
  private:
   Plan of_whole(const Plan& plan) const override {
@@ -191,7 +194,7 @@ Solution solve_b(const Instance& instance, const SolveOptions& options, const Li
                  RunObserver& observer, MergedObserver& merged) {
   try {
     return choose_and_solve(instance, options, limits, observer, merged);
-  } catch (const std::bad_alloc&) {  // before the search; the search handles its own
+  } catch (const std::bad_alloc&) {  // before the search, which handles its own exceptions
     limits.memory_exhausted();
     return stopped(options, limits);
   }
@@ -208,9 +211,9 @@ bool is_within_omega(const Solution& solution) {
   return solution.status == Status::kOptimal || solution.status == Status::kBounded;
 }
 
-// Merges two searches; the run ended as the second did. Exception: if the second found that its
-// destinations allow no plan, this says nothing about the instance, and the limit that stopped the
-// first search is reported.
+// Merges the results of two searches. The end of the second search is reported as the end of the
+// run, with one exception: if the second search proved only that its chosen destinations admit no
+// plan, the limit that stopped the first search is reported.
 Solution both(const Solution& first, Solution second) {
   if (second.status == Status::kInfeasible) return second;
   auto& texts = second.stats.texts;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// CTS-CBS-B and CTS-CBS-C for MG-MAPF (paper, section V-B). All have the contract of solve(). The
-// instance must have an agent without a destination.
+// CTS-CBS-B and CTS-CBS-C for MG-MAPF (paper, section V-B). Each function has the contract of
+// solve(), and requires an instance with at least one agent without a destination.
 #pragma once
 
 #include "engine/run_observer.h"
@@ -8,18 +8,18 @@
 
 namespace grove::detail {
 
-// B: one task of each agent without a destination becomes its destination.
+// CTS-CBS-B: one task of each agent without a destination becomes its destination.
 Solution solve_with_destinations(const Instance& instance, const SolveOptions& options,
                                  const Limits& limits, RunObserver& observer);
 
-// C: A, and if A is stopped, B in the rest of the time. A is stopped after two thirds of the time,
-// or earlier because there is no memory left or, with omega = inf, because its first tree holds no
-// plan.
+// CTS-CBS-C: runs A (solve() on the instance itself) and, if A is stopped, B in the rest of the
+// time. A is stopped after two thirds of the time, or earlier if the memory limit is reached or,
+// with omega = inf, if its first tree holds no plan.
 Solution solve_with_destinations_last(const Instance& instance, const SolveOptions& options,
                                       const Limits& limits, RunObserver& observer);
 
-// C, the paper's alternative: B for at most two thirds of the time, then A with B's plan as its
-// first incumbent.
+// CTS-CBS-C in the paper's alternative order: B for at most two thirds of the time, then A with B's
+// plan as its first incumbent.
 Solution solve_with_destinations_first(const Instance& instance, const SolveOptions& options,
                                        const Limits& limits, RunObserver& observer);
 

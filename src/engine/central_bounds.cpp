@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Global bounds of CTS-CBS (paper, Algorithms 1 and 4) with concurrent workers. The proof that the
 // search may stop is at the head of search/global_bounds.cpp and holds for any order of expansion.
-// It requires three things of the workers:
+// It has three premises:
 //
-// (a) Lower bound. The bound is the minimum of two numbers that are read while others work: the
-//   least bound of the live nodes, and the bound of the trees not yet instantiated. A tree's root
-//   is pushed first; the bound of the later trees is published after that. The trees' bound is read
-//   before the nodes' bound. Claim: the minimum is a lower bound on every plan that was not pruned.
-//   Proof: if a plan's tree was not instantiated when the nodes' bound was read, it was not when
-//   the trees' bound was read, which covers it. Otherwise the plan is in a live node or was pruned.
-//   A node is live until all its children have been pushed.
+// (a) Lower bound. The bound is the minimum of two numbers that are read while other threads work:
+//   the least bound of the live nodes, and the bound of the trees not yet instantiated. When a tree
+//   is instantiated, its root is pushed first, and the bound of the later trees is published
+//   afterwards. The trees' bound is read before the nodes' bound. Claim: the minimum is a lower
+//   bound on every plan that was not pruned. Proof: suppose that the root of a plan's tree was not
+//   pushed when the nodes' bound was read. Then the bound of the trees, read earlier, covers the
+//   plan. Otherwise the plan is in a live node or was pruned, because a node is live until all its
+//   children have been pushed.
 //
-// (b) End. "Nothing left" is reported only when no node is live and no tree is due, while no other
-//   thread may instantiate one: nodes come only from live nodes and from new trees
-//   (central_trees.cpp).
+// (b) End. The search ends for lack of nodes only when no node is live and no tree is due. This is
+//   tested under the lock that excludes the instantiation of trees (central_trees.cpp). Nodes come
+//   only from live nodes and from new trees, so no node can appear afterwards.
 //
 // (c) Pruning. No thread prunes by an incumbent before GlobalBounds has checked it.
 #include "engine/central_bounds.h"

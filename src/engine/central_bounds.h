@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Global bounds of a run: incumbent and proven lower bound. One object per run.
+// Global bounds of a run: incumbent and proven lower bound. There is one object per run.
 #pragma once
 
 #include <array>
@@ -16,11 +16,11 @@
 
 namespace grove::detail {
 
-// Keeps GlobalBounds up to date with the live nodes and the trees. The proof is at the head of the
-// .cpp. Thread-safe, except for resume_at(): call it before the search.
+// Updates GlobalBounds from the live nodes and the trees. The proof is at the head of the .cpp.
+// Thread-safe, except for resume_at(), which must be called before the search.
 class CentralBounds : public SharedBounds {
  public:
-  // All must outlive this. `trees_from`: lower bound on all trees of the run.
+  // All references must outlive this. `trees_from`: lower bound on all trees of the run.
   CentralBounds(const Instance& instance, Omega omega, const Limits& limits, LiveNodes& nodes,
                 RunEvents& run_events, Cost trees_from)
       : limits_(limits),
@@ -38,22 +38,23 @@ class CentralBounds : public SharedBounds {
   void post(Plan plan, PlanSource source) override;
   void prove(Cost bound, BoundSource by) override;
   void nodes_changed() override;
-  // Adds the number of better plans by source, and the cost that each source saved. Thread-safe.
+  // Adds, by source, the number of better plans and the total cost reduction by them. Thread-safe.
   void add_counts(Stats& stats) const;
 
-  // For decisions that GlobalBounds makes.
+  // For queries about decisions of GlobalBounds.
   const GlobalBounds& global_bounds() const { return global_bounds_; }
-  // True if infeasibility was proven outside the tree search, for the reason kNoJointPlan.
+  // True if the search over joint states proved infeasibility; the reason is then kNoJointPlan.
   bool has_no_joint_plan() const { return ended_beside_; }
   static constexpr std::string_view kNoJointPlan =
       "the search visited all joint states that the agents can reach";
-  // Takes over the lower bound of an earlier run.
+  // Raises the lower bound to that of an earlier run, which this run resumes.
   void resume_at(Cost lower_bound);
-  // Sets the lower bound on all trees not yet instantiated; kInfiniteCost: there is none. Call
-  // after the roots of the other trees were pushed.
+  // Sets the lower bound on all trees not yet instantiated; kInfiniteCost: no such tree is left.
+  // Must be called after the roots of the instantiated trees were pushed.
   void expect_trees_from(Cost bound) { trees_from_ = bound; }
   Cost trees_from() const { return trees_from_; }
-  // Ends the run although finished() is false: no node is left and none will come.
+  // Ends the run although GlobalBounds::finished() is false, because no node is left and none will
+  // be added.
   void end() { out_of_nodes_ = true; }
 
  private:
@@ -71,9 +72,9 @@ class CentralBounds : public SharedBounds {
     std::int64_t plans = 0;
     Cost gain = 0;
   };
-  std::mutex posting_;  // orders the events about plans
+  std::mutex posting_;  // serialises the events about plans
   mutable std::mutex counting_;
-  std::array<Found, kPlanSources.size()> found_;  // under counting_
+  std::array<Found, kPlanSources.size()> found_;  // guarded by counting_
 };
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Instantiates trees. The order of the steps here matters for the lower bound: see the head of
+// Instantiates trees. The lower bound depends on the order of the steps here; see the head of
 // central_bounds.cpp.
 #include "engine/central_trees.h"
 
@@ -44,7 +44,7 @@ std::vector<TreeRecord> CentralTrees::records(std::int64_t count) const {
 }
 
 void CentralTrees::add_counts(Stats& stats) const {
-  stats.counts["nodes_generated"] += count_;  // the roots among them
+  stats.counts["nodes_generated"] += count_;  // only the roots
   stats.counts["restarts"] += restarts_;
   stats.counts["roots_generated"] += count_;
   stats.counts["trees_prepared"] += prepared_count_;
@@ -88,7 +88,8 @@ void CentralTrees::log_proof(const Node& root) const {
   options_.proof->tree(tree);
 }
 
-// Instantiates the next tree. Requires growing_. If anything throws, the root stays prepared.
+// Instantiates the next tree. The caller must hold growing_. If a call throws, the root stays
+// prepared.
 void CentralTrees::grow() {
   if (!prepared_) prepared_ = forest_.next_root();
   const bool has_root = prepared_ != nullptr;
@@ -104,15 +105,16 @@ void CentralTrees::grow() {
   if (has_root) run_events_.event(RunEvent::kTree);
 }
 
-// Only the trees of policy kFixed are prepared: making one solves sequencing problems and plans a
-// path for each agent.
+// Only trees of policy kFixed are prepared, because making one is expensive: it solves sequencing
+// problems and plans a path for each agent.
 bool CentralTrees::claim_preparation() {
   const bool wanted = options_.policy == Policy::kFixed && !options_.omega.is_infinite() &&
                       shared_bounds_.trees_from() < kInfiniteCost && !shared_bounds_.over();
   return wanted && !preparing_.exchange(true);
 }
 
-// A prepared tree is not instantiated: its root is not live, but it bounds the trees to come.
+// A prepared tree does not count as instantiated: its root is not live, but its bound is part of
+// the bound of the trees not yet instantiated.
 void CentralTrees::prepare_tree() {
   const std::unique_lock lock(growing_, std::try_to_lock);
   if (lock && (prepared_ || (prepared_ = forest_.next_root()))) {
@@ -123,9 +125,10 @@ void CentralTrees::prepare_tree() {
   }
 }
 
-// Call when no node is live. If nodes were evicted, restarts from all roots, or first adds a tree
-// that is due by then. Returns false if no node was evicted, if w = inf, or if the last run did not
-// raise evicted_bound(). Requires growing_.
+// Must be called only when no node is live, with growing_ held. If nodes were evicted, restarts
+// from all roots. If the bound of the trees not yet instantiated is below the bound of the evicted
+// nodes, only instantiates the next tree instead. Returns false if no node was evicted, if w = inf,
+// or if the search since the last restart has not raised evicted_bound().
 bool CentralTrees::restart() {
   const Cost proven = nodes_.evicted_bound();
   if (proven == kInfiniteCost || options_.omega.is_infinite()) return false;

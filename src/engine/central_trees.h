@@ -17,23 +17,23 @@
 
 namespace grove::detail {
 
-// Instantiates the next tree of a forest when GlobalBounds requires it, and pushes its root. Pushes
-// all roots again when no node is left but some were evicted.
+// Instantiates the next tree of a forest when GlobalBounds requires it, and pushes its root. When
+// no node is live but some were evicted, it pushes all roots again.
 class CentralTrees : public TreeSource {
  public:
-  // All must outlive this.
+  // All arguments must outlive this.
   CentralTrees(const SolveOptions& options, Forest& forest, LiveNodes& nodes,
                CentralBounds& shared_bounds, RunEvents& run_events);
 
-  // Call first, on one thread. resume_with(): adds one tree of an earlier run, after the forest has
-  // made the same tree and before its nodes are pushed. begin(): then instantiates the first tree
-  // if there is none.
+  // Must be called before the other functions, on one thread. resume_with() adds one tree of an
+  // earlier run, after the forest has made the same tree and before the tree's nodes are pushed.
+  // begin(), called last, instantiates the first tree unless resume_with() added one.
   void resume_with(const NodePtr& root);
   void begin();
 
-  // Number of trees that are instantiated and whose roots are pushed.
+  // Number of trees instantiated so far, with their roots pushed.
   std::int64_t count() const { return count_; }
-  // Records of the first `count` trees.
+  // Returns the records of the first `count` trees.
   std::vector<TreeRecord> records(std::int64_t count) const;
   // Adds the counts of this object to the statistics of the solution.
   void add_counts(Stats& stats) const;
@@ -51,18 +51,18 @@ class CentralTrees : public TreeSource {
   bool restart();
 
   const SolveOptions& options_;
-  Forest& forest_;  // under growing_
+  Forest& forest_;  // guarded by growing_
   LiveNodes& nodes_;
   CentralBounds& shared_bounds_;
   RunEvents& run_events_;
 
-  mutable std::mutex growing_;  // guards the forest and what follows
+  mutable std::mutex growing_;  // guards the forest and the non-atomic members below
   std::vector<NodePtr> roots_;  // by the number of the tree
-  NodePtr prepared_;            // root of the next tree if prepared, else null
+  NodePtr prepared_;            // root of the next tree if prepared, else nullptr
   Cost restarted_at_ = -1;      // evicted_bound() at the last restart; -1: none
   std::int64_t restarts_ = 0;
 
-  std::atomic<Cost> last_cost_;  // of the tree instantiated last
+  std::atomic<Cost> last_cost_;  // root cost of the tree instantiated last
   std::atomic<std::int64_t> count_{0};
   std::atomic<bool> preparing_{false};
   std::atomic<std::int64_t> prepared_count_{0};

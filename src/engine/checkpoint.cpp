@@ -3,12 +3,12 @@
 // - magic (8 bytes), version (4 bytes), then blocks.
 // - Block: kind (4 bytes), length of the content (8 bytes), content (see serialize.h), CRC-32 (4
 //   bytes).
-// - Blocks in order: one HEAD, then TREE, then NODE, then one ENDS with the number of nodes.
-//   Nothing follows it, so a file that was cut short anywhere has no ENDS.
+// - Blocks in order: one HEAD, the TREE blocks, the NODE blocks, and one ENDS with the number of
+//   nodes. Nothing follows ENDS, so a truncated file has no ENDS.
 //
-// The CRC of a block covers the whole file up to there except the earlier CRCs. So blocks cannot be
-// changed, lost, duplicated or reordered undetected. The earlier CRCs are excluded because data
-// that is followed by its own CRC always has the same CRC.
+// The CRC of a block covers the whole file up to that CRC, except the earlier CRCs. Therefore
+// changed, lost, duplicated and reordered blocks are detected. The earlier CRCs are excluded
+// because the CRC of data followed by its own CRC is a constant.
 #include "engine/checkpoint.h"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kMagic = "GROVE-CP";
 constexpr std::uint32_t kVersion = 3;
-constexpr std::size_t kBlockBytes = std::size_t{1} << 18;  // approximate content of a block
+constexpr std::size_t kBlockBytes = std::size_t{1} << 18;  // approximate size of a block's content
 constexpr std::size_t kBlockHeadBytes = 12;
 constexpr std::size_t kChecksumBytes = 4;
 
@@ -65,7 +65,7 @@ void serialize(Archive& archive, Head& head) {
           head.trees_instantiated, head.trees, head.counters, head.seconds);
 }
 
-// Values in the file; those of the enumeration may change.
+// Values of Policy in the file. They are separate from the enumerators, whose values can change.
 constexpr std::uint8_t kFixed = 1;
 constexpr std::uint8_t kFree = 2;
 
@@ -200,7 +200,7 @@ class CheckpointReader::Blocks {
     const std::string head = read(kBlockHeadBytes);
     Block block{static_cast<std::uint32_t>(number_in(std::string_view(head).substr(0, 4))), {}};
     const std::uint64_t length = number_in(std::string_view(head).substr(4));
-    // Check the length first: no checksum covers it yet.
+    // Check the length first, because it is not yet verified by a checksum.
     if (length > left() || left() - length < kChecksumBytes)
       refuse(fmt::format("has a block of {} bytes; expected at most {}, the bytes left", length,
                          left()));
@@ -221,12 +221,12 @@ class CheckpointReader::Blocks {
 
   std::uint64_t left() const { return size_ - offset_; }
 
-  // Throws InputError: the block read last is damaged.
+  // Throws an InputError that says that the block read last is damaged.
   [[noreturn]] void refuse(std::string_view what) const {
     throw InputError(path_.string(), fmt::format("byte {}", block_begin_),
                      fmt::format("is damaged: {}", what));
   }
-  // Throws InputError: the file is intact, but not the expected one.
+  // Throws an InputError about a file that is intact, but not the expected one.
   [[noreturn]] void refuse_file(std::string_view what) const {
     throw InputError(path_.string(), "", what);
   }

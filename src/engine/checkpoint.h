@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checkpoint file of a search, to resume from: DIR/checkpoint.grove. It is written atomically.
+// Checkpoint file from which a search can resume: DIR/checkpoint.grove, written atomically.
 #pragma once
 
 #include <cstddef>
@@ -22,36 +22,37 @@ namespace grove::detail {
 
 // Everything in a checkpoint except the nodes. A value.
 //
-// To resume under kFixed, the caller must check that the forest first makes the same trees, not
-// only as many. The sequencing back ends break ties differently, so skipping a number of trees may
-// skip other trees than those instantiated, and then the lower bound would be wrong.
+// To resume under kFixed, the caller must check that the forest makes the same trees first, not
+// only the same number of trees. The sequencing back ends break ties differently. If the forest
+// skipped a number of trees, it could skip trees that were never instantiated, and then the lower
+// bound would be wrong.
 struct CheckpointHeader {
   std::uint64_t fingerprint = 0;        // of the instance; see model/fingerprint.h
   Policy policy = Policy::kFree;        // not kAuto
   std::optional<Plan> incumbent;        // by AgentIndex and TaskIndex of that instance
   Cost lower_bound = 0;                 // proven: no plan costs less
   Cost evicted_bound = kInfiniteCost;   // least bound of evicted nodes; kInfiniteCost: none
-  std::int64_t trees_instantiated = 0;  // by the forest so far; >= trees.size()
+  std::int64_t trees_instantiated = 0;  // trees made by the forest so far; >= trees.size()
   std::vector<TreeRecord> trees;        // by number; includes the tree of each node
-  std::map<std::string, std::int64_t> counters;  // of the run so far, by name: nodes_expanded, ...
-  double seconds = 0;                            // of the run so far
+  std::map<std::string, std::int64_t> counters;  // of all runs so far, by name: nodes_expanded, ...
+  double seconds = 0;                            // duration of all runs so far
 };
 
-// DIR/checkpoint.grove.
+// Returns the path of the checkpoint file in `directory`.
 std::filesystem::path checkpoint_file(const std::filesystem::path& directory);
 
-// Writes a checkpoint node by node; buffers some hundred nodes. The previous checkpoint remains
-// until finish() has succeeded, and for good if this is destroyed before. One thread at a time.
-// Throws InputError with file and reason if the file cannot be written (no such directory, no
-// permission, full disk). For SIGXFSZ see io/atomic_file.h.
+// Writes a checkpoint node by node, with a buffer of some hundred nodes. finish() replaces the
+// previous checkpoint; if it fails or is not called, the previous checkpoint remains. Throws
+// InputError with file and reason if the file cannot be written (no such directory, no permission,
+// full disk). For SIGXFSZ see io/atomic_file.h. One thread at a time.
 class CheckpointWriter {
  public:
   // `directory` must exist. Throws std::invalid_argument for the policy kAuto.
   CheckpointWriter(const std::filesystem::path& directory, const CheckpointHeader& header);
 
-  // Throws std::invalid_argument for a node of a tree that is not in the header.
+  // Writes a node. Throws std::invalid_argument if its tree is not in the header.
   void add(NodeRecord node);
-  // Call once, last.
+  // Completes the file and replaces the previous checkpoint. Must be called once, last.
   void finish();
 
  private:
@@ -67,14 +68,14 @@ class CheckpointWriter {
   std::size_t waiting_bytes_ = 0;
 };
 
-// Reads a checkpoint node by node. One thread at a time. Throws InputError with the file, what was
-// found and what was expected, if the file cannot be read, is damaged, or is of another format
-// version, instance or policy. Damage is detected only when it is reached: the data read are valid
-// only once next() has returned nullopt. Trees::add() and node_of() check that paths and cells are
-// of the instance.
+// Reads a checkpoint node by node. Throws InputError with the file, what was found and what was
+// expected, if the file cannot be read, is damaged, or has a different format version, instance or
+// policy. Damage is detected only when the reader reaches it, so the data are known to be intact
+// only once next() has returned nullopt. The reader does not check that paths and cells belong to
+// the instance; Trees::add() and node_of() do. One thread at a time.
 class CheckpointReader {
  public:
-  // `fingerprint` and `policy`: the expected ones.
+  // `fingerprint` and `policy`: the values expected in the file.
   CheckpointReader(const std::filesystem::path& directory, std::uint64_t fingerprint,
                    Policy policy);
   ~CheckpointReader();
@@ -94,7 +95,7 @@ class CheckpointReader {
   CheckpointHeader header_;
   std::vector<NodeRecord> nodes_;  // nodes of the block read last
   std::size_t next_ = 0;           // position in nodes_
-  std::uint64_t nodes_read_ = 0;   // from all blocks
+  std::uint64_t nodes_read_ = 0;   // number of nodes in all blocks read
   bool ended_ = false;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checkpoint options of a run, and the timer.
+// Checkpoint options of a run, and the timer that decides when a checkpoint is due.
 #pragma once
 
 #include <atomic>
@@ -12,15 +12,16 @@
 
 namespace grove::detail {
 
-// Checkpoints are written every `interval_s` seconds, on request, and at the end of the run,
-// whatever ended it. A value.
+// Checkpoint options. A run writes checkpoints every `interval_s` seconds, on request, and at its
+// end, whatever ended it. A value.
 struct Checkpoints {
   std::filesystem::path directory;  // must exist; empty: no checkpoints
   double interval_s = 600;
-  std::atomic<bool>* asked = nullptr;  // set by a signal handler, reset by the run; may be null
+  // Request for a checkpoint: a signal handler sets it, the run resets it. nullptr: no requests.
+  std::atomic<bool>* asked = nullptr;
 };
 
-// Outcome of writing a checkpoint.
+// Result of writing a checkpoint.
 struct CheckpointReport {
   std::int64_t nodes = 0;
   double seconds = 0;   // duration of the write
@@ -30,7 +31,7 @@ struct CheckpointReport {
 // Decides when a checkpoint is due. One thread at a time.
 class CheckpointTimer {
  public:
-  // Uses the clock of `limits`.
+  // Uses the clock of `limits`. Both arguments must outlive this.
   CheckpointTimer(const Checkpoints& checkpoints, const Limits& limits)
       : checkpoints_(checkpoints), limits_(limits), last_(limits.now()) {}
 
@@ -46,7 +47,7 @@ class CheckpointTimer {
   }
 
  private:
-  const Checkpoints& checkpoints_;  // both owned by the caller
+  const Checkpoints& checkpoints_;
   const Limits& limits_;
   Limits::Clock::time_point last_;
 };

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Problem: on which task should each agent end? The choice is a least-cost assignment of agents to
-// tasks. The cost of (agent, task) is the cost of the agent's best sequence that ends on the task,
-// plus a charge for the other agents that must visit the task.
+// Problem: choose the task on which each agent without a destination ends. The choice is a
+// least-cost assignment of agents to tasks. The cost of (agent, task) is the cost of the agent's
+// best sequence that ends on the task, plus a charge for each other agent that must visit the task.
 //
-// Visitors. Once an agent rests, no other agent can visit its place. So all other agents that must
-// visit it have to come before, which under fixed sequences is often possible only at a very high
-// cost. Without a charge for visitors, the choice costs hardly more than the instance without
-// destinations and is hardly easier to solve. Measured on 36 instances (the paper's three maps, N =
-// 5 and 10, M = 10 to 30; policy fixed, 4 s): CTS-CBS-A solves 17 or 18, B without a charge 23, B
-// with 12 steps per visitor 32 (visitor_steps in model/tunables.def). (An additional charge for
-// destinations in corridors solved no more.)
+// Charge for visitors. Once an agent rests, no other agent can visit its place. All other agents
+// that must visit the place have to do so before, which under fixed sequences is often possible
+// only at a very high cost. Without a charge, plans that end on the chosen tasks cost hardly more
+// than other plans, but the instance is hardly easier to solve. Measured on 36 instances (the
+// paper's three maps, N = 5 and 10, M = 10 to 30; policy fixed, 4 s): CTS-CBS-A solves 17 or 18, B
+// without a charge 23, B with 12 steps per visitor 32 (visitor_steps in model/tunables.def). (With
+// an additional charge for destinations in corridors, B solved no more.)
 //
-// All ends in one table. Distances are symmetric. So a sequence from the start that ends on e, read
-// backwards, begins on e and ends at the start. Hence the cost-to-go table of a matrix whose
-// destination is the start gives, for every stop e, the cost through all other stops. It is exact
-// for ends up to a cost limit above the best end. The limit is raised until no other end can
-// matter: an end outside costs at least outside_bound(), and an assignment that uses it costs at
-// least that plus the best ends of all other agents.
+// All ends in one table. CTS-CBS-B accepts only plain worlds (method.cpp), in which distances are
+// symmetric. Therefore a sequence from the start that ends on e, read backwards, starts on e and
+// ends at the start. Hence the cost-to-go table of a matrix whose destination is the start gives,
+// for every stop e, the cost through all other stops. The table is exact for ends up to a limit
+// above the cost of the best end. The limit is raised until no other end can improve the
+// assignment: an end above the limit costs at least outside_bound(), and an assignment that uses it
+// costs at least that plus the costs of the best ends of all other agents.
 #include "engine/destinations.h"
 
 #include <algorithm>
@@ -30,9 +31,9 @@
 namespace grove::detail {
 namespace {
 
-constexpr Time kFirstReach = 8;  // above the best end, in steps
+constexpr Time kFirstReach = 8;  // first limit above the cost of the best end, in steps
 
-// Costs of all ends of one agent without a destination.
+// Sequence costs of one agent without a destination, by the task on which it ends.
 class Ends {
  public:
   Ends(const Problem& problem, AgentIndex agent)
@@ -41,14 +42,14 @@ class Ends {
   AgentIndex agent() const { return agent_; }
   const std::vector<TaskIndex>& tasks() const { return tasks_; }
 
-  // Computes all ends that cost at most `reach` more than the best one. Returns false if a limit
-  // was reached.
+  // Computes the costs of all ends that cost at most `reach` more than the best end. Returns false
+  // if a limit was reached.
   bool extend(Time reach, const Limits& limits) {
     if (best_ == kNever && !find_best(limits)) return false;
     return all_known() || ends_.extend(std::min(best_ + reach, kNever - 1), limits);
   }
   Time best() const { return best_; }
-  // Least cost of a sequence that ends on the task; kNever: at least outside_bound().
+  // Least cost of a sequence that ends on `stop`; kNever: not known, but at least outside_bound().
   Time cost(int stop) const {
     return ends_.cost_to_go(ends_.matrix().all() & ~(StopSet{1} << stop), stop);
   }
@@ -69,7 +70,7 @@ class Ends {
       reach = std::max(reach, std::min(ends_.outside_bound(), kNever - 1));
       if (!ends_.extend(reach, limits)) return false;
       for (int stop = 0; stop < ends_.matrix().stops(); ++stop) best_ = std::min(best_, cost(stop));
-      if (best_ > ends_.outside_bound()) best_ = kNever;  // an unknown end may be better
+      if (best_ > ends_.outside_bound()) best_ = kNever;  // an unknown end can be better
       if (best_ == kNever && all_known()) return false;
     }
     return true;
@@ -102,7 +103,8 @@ class DestinationChooser {
   }
 
  private:
-  // Adds the best sequence costs of the agents that have a destination.
+  // Adds the best sequence costs of the agents that have a destination to `bound`. Returns false if
+  // a cost is not known exactly.
   bool add_bound_of_others(Cost& bound) const {
     const Instance& instance = problem_.instance;
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
@@ -114,7 +116,7 @@ class DestinationChooser {
     return true;
   }
 
-  // Cost matrix, by position in ends_, then task.
+  // Cost matrix of the assignment, by position in ends_, then by task.
   std::vector<std::vector<std::int64_t>> costs() const {
     const auto tasks = static_cast<std::size_t>(problem_.instance.task_count());
     std::vector<std::vector<std::int64_t>> costs(ends_.size(),
@@ -125,7 +127,7 @@ class DestinationChooser {
           costs[i][task] = cost;
     return costs;
   }
-  // Cost of an end with its visitors; kNever or more: not known.
+  // Cost of an end including the charge for visitors; kNever or more: not known.
   Cost cost_of(const Ends& ends, TaskIndex task) const {
     const auto stop = std::ranges::find(ends.tasks(), task) - ends.tasks().begin();
     const auto visitors = std::ssize(problem_.instance.task(task).agents) - 1;
@@ -137,7 +139,7 @@ class DestinationChooser {
     });
   }
 
-  // True if no assignment with an unknown end can be better.
+  // True if no assignment that uses an end of unknown cost can be better than `assignment`.
   bool is_best(const std::optional<std::vector<int>>& assignment) const {
     if (std::ranges::all_of(ends_, &Ends::all_known)) return true;
     if (!assignment) return false;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Divides the work between tree search and joint search. The tree begins, because its first nodes
-// close most small instances. An instance that is still open then and has few joint states is often
-// one where all agents are in each other's way. There the joint search ends soon, and the tree
-// search perhaps never. It is not known in advance which of the two ends first, so they share the
-// work; joint search may do joint_max_share units per unit of other work. When it exceeds its
-// memory or has ended, the tree gets all work.
+// Divides the effort between tree search and joint search. The tree search starts alone, because
+// its first nodes solve most small instances. In an unsolved instance with few joint states, often
+// all agents are in each other's way; there the joint search ends soon, and the tree search perhaps
+// never. It is not known in advance which of the two ends first, so they share the effort: joint
+// search gets up to joint_max_share units per unit of other effort. When joint search has ended or
+// exceeds its memory, it gets no more effort.
 #include "engine/joint_scheduler.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kMaxLog2States = 44;  // for instances with at most 2^44 joint states
+constexpr double kMaxLog2States = 44;  // at most 2^44 joint states
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
 

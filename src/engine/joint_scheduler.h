@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Schedules the search over joint states.
+// Decides when the search over joint states gets effort, and runs it.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,17 @@
 
 namespace grove::detail {
 
-// The rule is at the head of the .cpp. One thread at a time.
+// The scheduling rule is at the head of the .cpp. One thread at a time.
 class JointScheduler {
  public:
-  // `instance` must outlive this. Unless `wanted`, it is never due.
+  // `instance` and `tuning` must outlive this. If `wanted` is false, the search is never due.
   JointScheduler(const Instance& instance, const Tuning& tuning, bool wanted);
 
-  // Adds `work` units of other work.
+  // Records `work` units of effort of the tree search and the primal search.
   void add_other_work(std::int64_t work) { others_ += work; }
   bool due() const;
-  // Runs the search for about a millisecond. Returns its lower bound, as for SharedBounds::prove().
+  // Runs the search for about a millisecond. Returns its lower bound, in the sense of
+  // SharedBounds::prove().
   Cost step(Cost cutoff, const Limits& limits);
   // Returns an optimal plan once it is found, else nullopt.
   std::optional<Plan> plan() const;

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Decides when the Lagrangian bound gets work.
+// Decides when the Lagrangian bound gets effort.
 //
-// The tree begins, because an instance that the tree closes at once needs no other bound. A plan
-// comes next: without an incumbent the bound begins ten times later. With fewer than
-// lagrangian_min_agents agents the tree gives the better bound, so the Lagrangian bound is not
-// tried. Otherwise it gets its share of the work until it ends: when it promises less than is
-// proven already, or when nothing can be gained any more. A worker that has nothing else to do
-// continues with it in any case.
+// The tree search starts alone (for an effort of lagrangian_start_work), because an instance that
+// it solves at once needs no other bound. A first plan is more urgent than the Lagrangian bound, so
+// without an incumbent the bound starts only after ten times lagrangian_start_work. With fewer than
+// lagrangian_min_agents agents the tree search gives the better bound, so the Lagrangian bound is
+// not tried. Otherwise the bound gets its share of the effort (lagrangian_max_share) until it
+// stops, either because it promises less than the proven bound or because it can gain no more. A
+// worker that has nothing else to do works on it in any case.
 //
-// With several ranks, rank 0 owns the bound, and the other ranks price agents for it. They do so
-// before all other work, because the bound cannot continue without the prices. All ranks have about
-// as much other work, so the bound's share is measured against the work of all ranks. But rank 0
-// keeps some of its time for its own nodes, because the lower bound of the run depends on them too.
+// With several ranks, rank 0 owns the bound, and the other ranks solve pricing problems for it.
+// They do so before all other work items, because the bound cannot continue without the subproblem
+// values. The bound's share is a share of the effort of all ranks, which is estimated as rank 0's
+// other effort times the number of ranks. However, rank 0 spends some of its time on its own nodes
+// (kMaxLocalRatio), because the lower bound of the run depends on them, too.
 #include "engine/lagrangian_scheduler.h"
 
 #include <new>
@@ -22,7 +24,7 @@ namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kPatienceWithoutPlan = 10;  // factor on lagrangian_start_work without a plan
-constexpr double kMaxLocalRatio = 4;  // Lagrangian work per unit of other work, on rank 0
+constexpr double kMaxLocalRatio = 4;  // max. Lagrangian effort per unit of other effort, on rank 0
 
 }  // namespace
 
@@ -53,7 +55,7 @@ std::optional<LagrangianBound::Job> LagrangianScheduler::next() {
   return bound_ ? bound_->next() : std::nullopt;
 }
 
-// If memory is refused, the run has no Lagrangian bound.
+// If there is not enough memory, the run does without a Lagrangian bound.
 void LagrangianScheduler::make() {
   try {
     bound_ = LagrangianBound::make(*instance_, *stops_, tuning_);
@@ -117,8 +119,8 @@ Cost LagrangianScheduler::update_from_bound() {
   return bound_->lower_bound();
 }
 
-// Helper h is rank h + 1: rank 0 is no helper. Requested work counts as done from the request on:
-// while other ranks do it, rank 0 has time for other work.
+// Helper h is rank h + 1, because rank 0 is no helper. Requested effort counts as spent when the
+// request is made, so that rank 0 does other work items in the meantime.
 std::vector<std::pair<int, PricingRequest>> LagrangianScheduler::dispatch_pricing() {
   std::vector<std::pair<int, PricingRequest>> requests;
   LagrangianBound* const bound = is_over_ ? nullptr : this->bound();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Schedules the work of the Lagrangian bound.
+// Decides when the Lagrangian bound gets effort, and distributes its jobs.
 #pragma once
 
 #include <atomic>
@@ -16,54 +16,55 @@
 
 namespace grove::detail {
 
-// The workers of a process compute the bound together. With several ranks, those of the other ranks
-// price agents for it. The rule is at the head of the .cpp. Thread-safe, except for open() and the
-// methods about ranks. Only the communicating thread calls the latter.
+// The workers of a process compute the bound together. With several ranks, rank 0 owns the bound,
+// and workers of the other ranks solve pricing problems for it. The scheduling rule is at the head
+// of the .cpp. Thread-safe, except for open() and the functions about other ranks, which only the
+// communicating thread may call.
 class LagrangianScheduler {
  public:
-  // `tuning` must outlive this. Before open(), due() returns false unless help() was called.
+  // `tuning` must outlive this. due() returns false until open() or help() is called.
   explicit LagrangianScheduler(const Tuning& tuning) : tuning_(tuning) {}
 
-  // Call before the search. `instance` must outlive this. `keeps_reasons`: keep what log_proof()
-  // needs.
+  // Must be called before the search, where the bound is owned. `instance` must outlive this.
+  // `keeps_reasons`: whether to record what log_proof() needs.
   void open(const Instance& instance, const AgentStopsCache& stops, bool keeps_reasons);
 
-  // Adds `work` units of other work: tree search and primal search.
+  // Records `work` units of effort of the tree search and the primal search.
   void add_other_work(std::int64_t work) { others_ += work; }
-  // True if the next work item is the bound's.
+  // True if the next work item should be for the bound.
   bool due(bool has_plan) const;
-  // Returns the next job of the bound, or nullopt if there is none or other threads have all of
-  // them in progress. The caller performs and commits the job.
+  // Returns the next job of the bound. Returns nullopt if no job is left or all are in progress on
+  // other threads. The caller must perform and commit the job.
   std::optional<LagrangianBound::Job> next();
   bool has_jobs() const;
   void perform(LagrangianBound::Job& job, Pricer& pricer, Cost cutoff, Cost known,
                const Limits& limits);
-  // Returns the proven lower bound: no plan costs less. 0 where another rank owns the bound.
+  // Returns the proven lower bound: no plan costs less. Returns 0 if another rank owns the bound.
   Cost commit(LagrangianBound::Job job);
 
-  // Call only while the caller has a job.
+  // Must be called only while the caller has a job.
   Pricer pricer(const AgentStopsCache& stops) const;
   int rounds() const { return rounds_; }
-  // Call after the search. Logs the multipliers that prove the bound.
+  // Logs the multipliers that prove the bound. Must be called after the search.
   void log_proof(ProofLog& proof) const;
-  // Returns the dual solution for the primal search, or nullptr if there is none yet or another
+  // Returns the dual solution for the primal search. Returns nullptr if none exists yet or another
   // rank owns the bound.
   std::shared_ptr<const DualSolution> dual_solution() const;
 
-  // Call on rank 0 before the search: `ranks` ranks share it.
+  // Sets the number of ranks that share the search. Must be called on rank 0 before the search.
   void set_ranks(int ranks) {
     ranks_ = ranks;
     asked_of_.resize(static_cast<std::size_t>(ranks));
   }
-  // Returns the pricing requests to send now, with their ranks.
+  // Returns the pricing requests to send now, each with its receiver.
   std::vector<std::pair<int, PricingRequest>> dispatch_pricing();
-  // Takes the reply of `rank`. Returns the proven lower bound: no plan costs less. Throws
-  // std::invalid_argument if `rank` cannot have a request.
+  // Takes the reply from `rank`. Returns the proven lower bound: no plan costs less. Throws
+  // std::invalid_argument if `rank` is no rank that can have a request.
   Cost accept(int rank, PricingReply answer);
   std::int64_t remote_pricings() const { return prices_of_ranks_; }
 
-  // Call on a rank other than 0: takes a pricing request, which precedes all other work. Throws as
-  // RemotePricing::accept().
+  // Takes a pricing request, which workers handle before all other work. Must be called only on
+  // ranks other than 0. Throws what RemotePricing::accept() throws.
   void help(const Instance& instance, PricingRequest request);
   std::optional<PricingReply> take_answer();
 
@@ -77,17 +78,17 @@ class LagrangianScheduler {
   std::optional<AgentStopsCache> stops_;
   bool records_best_multipliers_ = false;
   std::atomic<std::int64_t> others_{0};
-  std::atomic<std::int64_t> own_{0};       // includes work of other ranks
-  std::atomic<std::int64_t> own_here_{0};  // on this process
+  std::atomic<std::int64_t> own_{0};       // effort for the bound, on all ranks
+  std::atomic<std::int64_t> own_here_{0};  // effort for the bound in this process
   std::atomic<int> rounds_{0};
   std::atomic<std::int64_t> prices_of_ranks_{0};
   std::atomic<bool> is_over_{true};
   std::atomic<bool> helps_{false};
   int ranks_ = 1;
-  std::vector<std::int64_t> asked_of_;      // by rank: expected work of its request
-  mutable std::mutex making_;               // guards the creation of the next two:
+  std::vector<std::int64_t> asked_of_;      // by rank: expected effort of its request
+  mutable std::mutex making_;               // guards the creation of the next two members
   std::unique_ptr<LagrangianBound> bound_;  // made when first due
-  std::unique_ptr<RemotePricing> help_;     // made at the first request; then bound_ stays null
+  std::unique_ptr<RemotePricing> help_;     // made at the first request; bound_ then stays nullptr
 };
 
 }  // namespace grove::detail

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Live nodes of a run: the interface for CentralBounds and CentralTrees, and those of one process.
+// Live nodes of a run: the interface that CentralBounds and CentralTrees use, and its
+// implementation for the nodes of one process.
 #pragma once
 
 #include <atomic>
@@ -12,7 +13,7 @@
 
 namespace grove::detail {
 
-// They are in one frontier, or distributed over ranks.
+// The live nodes of a run, in one frontier or distributed over ranks.
 class LiveNodes {
  public:
   struct Counts {
@@ -27,21 +28,21 @@ class LiveNodes {
 
   // Lower bound on all plans in live and in evicted nodes.
   virtual Cost bound() const = 0;
-  // Least bound of an evicted node; kInfiniteCost: none.
+  // Least bound of an evicted node; kInfiniteCost if none was evicted.
   virtual Cost evicted_bound() const = 0;
   // False only if no node is live.
   virtual bool any() const = 0;
   virtual Counts counts() const = 0;
 
   virtual void push(const NodePtr& root) = 0;
-  // Drops nodes whose bound is at least `cost`, the cost of a checked plan.
+  // Drops the nodes with a bound of at least `cost`, which must be the cost of a checked plan.
   virtual void prune(Cost cost) = 0;
   // See Frontier::restart().
   virtual void restart(std::span<const NodePtr> roots, Cost proven) = 0;
 };
 
 // Nodes of one process: a frontier, the pool in which its nodes are made, and the number of nodes
-// expanded. All members are thread-safe.
+// expanded. Thread-safe.
 struct LocalNodes : LiveNodes {
   LocalNodes() = default;
   ~LocalNodes() override { frontier.abandon(); }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Checkpoints are written while other threads work. Order: count the trees, then take a snapshot of
-// all nodes at one moment, then read the incumbent.
+// A checkpoint is written while other threads search, in this order: count the trees, take a
+// snapshot of all nodes at one time, read the incumbent.
 //
-// Claim: every plan is in a written node, or costs at least the bound of an evicted node, or is in
-// a tree not counted, or costs at least as much as the incumbent. Proof: a node disappears only
-// after the plan that it led to was posted, or because the incumbent pruned it; so the incumbent is
-// read last. Nodes of trees that came in between are omitted: these trees will be instantiated
-// again.
+// Claim: every plan is in a written node, or in a tree not counted, or costs at least the bound of
+// an evicted node, or costs at least as much as the incumbent. Proof: a node disappears only after
+// the plan that it led to was posted, or because the incumbent pruned it. The incumbent is read
+// after the snapshot, so it costs at most as much as either plan. Nodes of trees instantiated after
+// the count are omitted, because a resumed run instantiates these trees again.
 #include "engine/local_checkpoints.h"
 
 #include <chrono>
@@ -39,7 +39,7 @@ void LocalCheckpoints::write() {
       ++report.nodes;
     }
     writer.finish();
-  } catch (const InputError& error) {  // the previous one remains; the run continues
+  } catch (const InputError& error) {  // the previous checkpoint remains, and the run continues
     report.failure = error.what();
   } catch (const std::bad_alloc&) {
     report.failure = "not enough memory to write it";

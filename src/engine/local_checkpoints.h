@@ -11,10 +11,10 @@
 
 namespace grove::detail {
 
-// Writes checkpoints. write_if_due() is thread-safe.
+// Writes the checkpoints of a run. write_if_due() is thread-safe.
 class LocalCheckpoints {
  public:
-  // All must outlive this.
+  // All arguments must outlive this.
   LocalCheckpoints(const SolveOptions& options, const Limits& limits, RunState& run,
                    LocalNodes& nodes)
       : options_(options),
@@ -23,9 +23,10 @@ class LocalCheckpoints {
         nodes_(nodes),
         timer_(options.checkpoints, limits) {}
 
-  // Writes a checkpoint if one is due and no other thread is writing. Call between work items.
+  // Writes a checkpoint if one is due and no other thread is writing one. Must be called between
+  // work items.
   void write_if_due();
-  // Call at the end of the run.
+  // Writes the last checkpoint. Must be called after the workers have stopped.
   void write_last();
 
  private:
@@ -39,8 +40,8 @@ class LocalCheckpoints {
   CheckpointTimer timer_;
 };
 
-// Restores the run and its nodes. Returns false if a limit was reached; then there is nothing to
-// search.
+// Restores the run and its nodes. Returns false if a limit was reached before that was complete;
+// the run must then not search.
 bool restore(CheckpointReader& checkpoint, const Instance& instance, RunState& run,
              LocalNodes& nodes);
 

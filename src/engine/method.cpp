@@ -19,7 +19,7 @@ struct Row {
   LowLevel low_level = LowLevel::kOwn;
 };
 
-// In the order of the enumeration.
+// Rows in the order of the enumerators.
 constexpr Row kMethods[] = {
     {Method::kAuto, "auto"},
     {Method::kCtsCbsA, "cts-cbs-a"},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Published methods by name, for comparison: Grove's search with the parts that define each method.
+// Published methods by name, for comparison. Each is Grove's search with the parts that define the
+// method.
 #pragma once
 
 #include <cstdint>
@@ -13,37 +14,39 @@
 namespace grove::detail {
 
 enum class Method : std::uint8_t {
-  kAuto,  // Grove's search with the given options
-  // MG-MAPF by CTS-CBS (paper, section V-B), under either policy; see adaptations.cpp.
-  kCtsCbsA,  // agents may end on any of their tasks
-  kCtsCbsB,  // one task of each agent becomes its destination; see destinations.h
-  kCtsCbsC,  // A, then B
-  // Plain CBS with another low level; see baselines/low_level.h.
+  kAuto,  // Grove's own search, with the given options
+  // Adaptations of CTS-CBS to MG-MAPF (paper, section V-B), under either policy; see
+  // adaptations.cpp.
+  kCtsCbsA,  // CTS-CBS-A: agents may end on any of their tasks
+  kCtsCbsB,  // CTS-CBS-B: one task of each agent becomes its destination (destinations.h)
+  kCtsCbsC,  // CTS-CBS-C: runs A, then B; or first B, see solve_by()
+  // Plain CBS with a published low level; see baselines/low_level.h.
   kOptimalCbs,
   kHcbs,
   kMgcbs,
-  kSCbs,  // CTS-CBS, only in the tree of the best joint sequence (w = inf; paper, section IV)
+  kSCbs,  // CTS-CBS restricted to the tree of the best joint sequence (w = inf; paper, section IV)
 };
 
 std::vector<Method> all_methods();
-// Name on the command line: "cts-cbs-a".
+// The method's name on the command line, such as "cts-cbs-a".
 std::string_view name_of(Method method);
 std::optional<Method> parse_method(std::string_view name);
 
-// True if the method is only for agents without a destination. (kCtsCbsA is what solve() does with
-// such agents; kCtsCbsB and kCtsCbsC are more.)
+// True if the method requires an agent without a destination. (For kCtsCbsA, solve_by() only calls
+// solve(); kCtsCbsB and kCtsCbsC run the functions of adaptations.h.)
 bool is_adaptation(Method method);
 
-// Returns `options` adapted to the method's searches. Throws std::invalid_argument with what was
-// expected if the options do not suit the method.
+// Returns `options` adapted to the searches that the method runs. Throws std::invalid_argument with
+// what was expected if the options do not suit the method.
 SolveOptions options_of(Method method, SolveOptions options);
 
 // Throws std::invalid_argument with the reason if the method does not suit the instance, or if a
 // start plan is given to a method that accepts none.
 void require_fit(Method method, const Instance& instance, const SolveOptions& options);
 
-// Solves `instance` by the method, which must suit it, with the contract of solve(). `options`:
-// result of options_of(). `anytime`, for kCtsCbsC: first B, then A from B's plan.
+// Solves `instance` by the method, with the contract of solve(). `options` must be a result of
+// options_of(). `anytime` (only for kCtsCbsC): run B first, then A from B's plan. Throws what
+// require_fit() throws.
 Solution solve_by(Method method, bool anytime, const Instance& instance,
                   const SolveOptions& options, const Limits& limits,
                   RunObserver* observer = nullptr);

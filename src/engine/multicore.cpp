@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Each worker has a thread and performs work items until there is none. Then it parks. A worker
-// that returns work wakes it.
+// Each worker has a thread and performs work items until none is available; then it parks. A worker
+// that completes an item wakes a parked worker if there is work for it.
 //
-// Claim: no work is overlooked. Proof: a worker parks under the lock under which it saw that no
-// node was open. A node is pushed before the pushing worker takes this lock to look for parked
-// workers. So either the parking worker sees the node or the pushing worker sees the parked one.
+// Claim: whenever a worker here has pushed an open node, some worker that is not parked will find
+// it. Proof: a worker tests that no node is open, and parks, under one lock. A worker pushes nodes
+// before it takes this lock to look for parked workers. Hence either the parking worker sees the
+// node, or the pushing worker sees the parked one.
 //
-// Two cases in which a worker does not park:
-// - No node is live. Then the next tree is due or the run is over, and a worker must determine this
-//   which.
-// - It is the last one awake. With several ranks, nodes arrive from other ranks, and the thread
-//   that pushes them wakes no worker. Also, a live node may be with no worker here, because it is
-//   in custody.
+// A worker that finds no work item does not park in two cases:
+// - No node is live. Then either the next tree is due or the run is over, and a worker must
+//   determine which of the two.
+// - All other workers are parked. With several ranks, nodes arrive from other ranks, and the
+//   communicating thread that pushes them wakes no worker. Moreover, the only live nodes can be in
+//   custody, so that no worker here has one.
 #include "engine/multicore.h"
 
 #include <algorithm>
@@ -29,7 +30,7 @@ namespace grove::detail {
 namespace {
 
 constexpr int kMaxTurnsPerRound = 4;
-constexpr auto kPause = std::chrono::microseconds(100);  // of a worker that must not park
+constexpr auto kPause = std::chrono::microseconds(100);  // sleep of a worker that must not park
 
 class WorkerPool {
  public:
@@ -85,7 +86,7 @@ class WorkerPool {
     return true;
   }
 
-  // Wakes a parked worker if there is work for it.
+  // Wakes a parked worker if a work item may be available for it.
   void call_another() {
     {
       const std::lock_guard lock(mutex_);
@@ -99,10 +100,10 @@ class WorkerPool {
   SharedSearch& shared_;
   const Limits& limits_;
   const BetweenItems& between_turns_;
-  std::mutex mutex_;  // guards all below
+  std::mutex mutex_;  // guards all members below
   std::condition_variable called_;
   int awake_ = 0;
-  int parked_ = 0;  // not yet called
+  int parked_ = 0;  // parked workers not yet called
   int calls_ = 0;   // called workers that have not woken yet
   bool ended_ = false;
 };
@@ -115,9 +116,9 @@ struct Unit {
   bool is_primal() const { return turn.job == Worker::WorkItem::Job::kPrimal; }
 };
 
-// Chooses a round: up to kMaxTurnsPerRound items per worker. A worker gets no further item after
-// one that does not expand a node. More nodes per round would be a poorer choice of nodes. With
-// fewer, threads would wait for each other.
+// Chooses the work items of a round: up to kMaxTurnsPerRound per worker. A worker gets no further
+// item after one that does not expand a node. With more items per round the nodes would be chosen
+// less well; with fewer, threads would wait for each other more.
 std::vector<Unit> choose_round(std::span<const std::unique_ptr<Worker>> workers) {
   std::vector<Unit> units;
   std::vector<bool> continues(workers.size(), true);
@@ -128,14 +129,14 @@ std::vector<Unit> choose_round(std::span<const std::unique_ptr<Worker>> workers)
       continues[w] = turn && turn->job == Worker::WorkItem::Job::kExpand;
       if (turn) units.push_back({workers[w].get(), std::move(*turn)});
     }
-  // Primal items take longest.
+  // Primal items take longest, so they start first.
   std::stable_partition(units.begin(), units.end(), [](const Unit& u) { return u.is_primal(); });
   return units;
 }
 
-// Calls `what` with each unit and waits for all. One thread does all units of a worker, in order:
-// the content of the expander's cache, and so the number of labels that it expands, must not depend
-// on the number of threads.
+// Calls `what` with each unit and waits for all calls. One thread handles all units of a worker, in
+// order, so that the content of the expander's cache, and therefore the number of labels that it
+// expands, does not depend on the number of threads.
 template <class What>
 void for_each_unit(std::vector<Unit>& units, ThreadTeam& team, const What& what) {
   std::vector<Worker*> workers;

@@ -10,23 +10,24 @@
 
 namespace grove::detail {
 
-// Called by any worker thread between two work items, for instance to write a checkpoint.
+// Function that any worker thread calls between two work items, for instance to write a checkpoint.
 using BetweenItems = std::function<void()>;
 
 // Runs the worker until the search is over.
 void run_single_threaded(Worker& worker, const SharedSearch& shared,
                          const BetweenItems& between_turns);
 
-// Runs every worker on a thread of its own until the search is over, and then cancels the work in
-// progress. Rethrows an exception of a worker after all threads have stopped.
+// Runs every worker on a thread of its own until the search is over, then cancels the work items in
+// progress. If a worker throws, rethrows its exception after all threads have stopped.
 void run_parallel(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
                   const Limits& limits, const BetweenItems& between_turns);
 
-// Number of workers of a deterministic run, for any number of threads.
+// Number of workers of a deterministic run, whatever the number of threads.
 inline constexpr int kDeterministicWorkers = 4;
 
-// Runs in rounds: the workers choose one after the other, perform concurrently on up to `threads`
-// threads, and commit one after the other. So the result does not depend on `threads`.
+// Runs the workers in rounds: they choose work items one worker after the other, perform them
+// concurrently on up to `threads` threads, and commit them one worker after the other. Therefore
+// the result does not depend on `threads`.
 void run_deterministic(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
                        int threads, const BetweenItems& between_turns);
 

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Divides the effort of a worker between tree search and primal search. For each unit of tree work
-// the primal search may do r units, 1/32 <= r <= 8, from when the tree has done kPrimalStartWork:
-// - With a plan, r = 8 x^3, where x = (primal work at its last improvement) / (primal work so far):
-//   x = 1 right after an improvement, 1/2 when as much work again brought none. So r = 8, 1, 1/8 at
-//   x = 1, 1/2, 1/4.
-// - Without a plan, r = 8: without an incumbent nothing is pruned, and a run that ends has nothing
-//   to show. After two failed attempts per agent r = 1: the instance may have no plan. While the
-//   primal search expects a plan soon it gets all work, not counted here, because expanding the
-//   root of a large instance can take seconds.
-// - Floor, below the cap: r >= 1 while more is proven outside the tree search than by it (then tree
-//   work raises no bound) or the gap exceeds large_gap (no tree closes it soon): neighbourhoods may
-//   fail a hundred times before the first of many gains.
-// - Cap: r <= clamp(8 t, 1/4, 8), t = (tree work) / primal_full_share_work, because the tree closes
-//   most small instances within tenths of a second, whatever plan there is. While the gap exceeds
-//   large_gap the cap is 8 at once.
+// Divides the effort of a worker between tree search and primal search. Once the tree search has
+// spent kPrimalStartWork, the primal search may spend r units per unit of tree effort, 1/32 <= r <=
+// 8:
+// - With a plan, r = 8 x^3, where x = (primal effort at the last improvement) / (primal effort so
+//   far). x is 1 right after an improvement, and 1/2 when the same effort again brought none. For x
+//   = 1, 1/2, 1/4, r is 8, 1, 1/8.
+// - Without a plan, r = 8, because without an incumbent nothing is pruned, and a run that reaches a
+//   limit has no result. After two failed attempts per agent r = 1, because the instance may have
+//   no plan. While the primal search expects a plan soon, it gets all effort, which is not counted
+//   here, because expanding the root of a large instance can take seconds.
+// - Floor (the cap has precedence): r >= 1 while the bound proven outside the tree search exceeds
+//   the tree's bound, because then tree effort does not raise the lower bound, and while the gap
+//   exceeds large_gap, because then the tree search does not close the gap soon. Without the floor
+//   r could fall too low, since neighbourhoods can fail a hundred times before the first of many
+//   gains.
+// - Cap: r <= clamp(8 t, 1/4, 8), where t = (tree effort) / primal_full_share_work, because the
+//   tree search solves most small instances within tenths of a second, whatever the incumbent.
+//   While the gap exceeds large_gap, the cap is 8.
 // r depends neither on the size of the instance nor on the speed of the machine. The numbers are
-// the defaults of tunables.def.
+// the constants below and the defaults of tunables.def.
 #include "engine/primal_scheduler.h"
 
 #include <algorithm>
@@ -23,10 +26,10 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::int64_t kPrimalStartWork = 2000;  // tree work before the primal search starts
+constexpr std::int64_t kPrimalStartWork = 2000;  // tree effort before the primal search starts
 constexpr double kMaxPrimalShare = 8;            // maximum of r
 constexpr double kMinPrimalShare = 1.0 / 32;     // minimum of r
-// Failed attempts of prioritised planning per agent.
+// Failed attempts of prioritised planning per agent after which r falls.
 constexpr std::int64_t kFailedAttemptsBeforeFallback = 2;
 
 }  // namespace

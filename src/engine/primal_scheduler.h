@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Divides the work of one worker between the tree search and the primal search.
+// Divides the effort of one worker between tree search and primal search.
 #pragma once
 
 #include <cstdint>
@@ -9,21 +9,21 @@
 namespace grove::detail {
 
 struct TreeOutlook {
-  bool is_dominated = false;  // more is proven outside the tree search than by it
+  bool is_dominated = false;  // the bound proven outside the tree search exceeds the tree's bound
   bool gap_is_large = false;  // the gap exceeds large_gap
 };
 
-// Counts work, not seconds, so that a run is repeatable. The rule is at the head of the .cpp. One
-// thread at a time.
+// Counts effort (search/work.h), not seconds, so that a run is repeatable. The rule is at the head
+// of the .cpp. One thread at a time.
 class PrimalScheduler {
  public:
   PrimalScheduler(int agents, const Tuning& tuning);
 
-  // Adds `work` units of tree work, in the units of PrimalSearch::work().
+  // Records `work` units of tree-search effort, in the unit of PrimalSearch::work().
   void add_tree_work(std::int64_t work, TreeOutlook outlook = {});
-  // True once the tree has done enough work (kPrimalStartWork).
+  // True once the effort of the tree search has reached kPrimalStartWork.
   bool may_begin() const;
-  // True if the next work item is the primal search's.
+  // True if the next work item should be for the primal search.
   bool due(const PrimalSearch& primal) const;
   void add_primal_work(const PrimalSearch& primal, std::int64_t work);
 
@@ -34,8 +34,8 @@ class PrimalScheduler {
   const std::int64_t agents_;
   const Tuning tuning_;
   std::int64_t tree_ = 0;
-  double credit_ = 0;  // work that the primal search may do now
-  double ratio_;       // primal work per unit of tree work, before floor and cap
+  double credit_ = 0;  // effort that the primal search may spend now
+  double ratio_;       // primal effort per unit of tree effort, before floor and cap
 };
 
 }  // namespace grove::detail

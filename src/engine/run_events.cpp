@@ -41,7 +41,7 @@ void RunEvents::infeasible(std::string_view reason) {
   observer_.on_infeasible(reason);
 }
 
-// An infinite bound (no plan exists) is reported at the end.
+// Does not report an infinite bound (no plan exists); that is reported at the end of the run.
 void RunEvents::bound_locked(Cost lower_bound) {
   if (lower_bound <= announced_bound_ || lower_bound >= kInfiniteCost) return;
   const Progress progress = progress_();

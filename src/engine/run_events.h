@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Serialises the events of a run for its observer.
+// Passes the events of a run to its observer, one at a time.
 #pragma once
 
 #include <functional>
@@ -12,15 +12,15 @@
 
 namespace grove::detail {
 
-// Passes one event at a time to the observer, with the progress at that moment. Thread-safe, except
+// Passes one event at a time to the observer, with the progress at that time. Thread-safe, except
 // for set_statistics_source() and bound_is_known().
 class RunEvents : public WorkObserver {
  public:
   // `observer` and everything that `progress` reads must outlive this.
   RunEvents(RunObserver& observer, std::function<Progress()> progress)
       : observer_(observer), progress_(std::move(progress)) {}
-  // Sets the function that makes the statistics, for an observer that requests them. It is called
-  // from any thread. Call before the search.
+  // Sets the function that makes the statistics, for an observer that requests them. Must be called
+  // before the search; any thread can then call `statistics`.
   void set_statistics_source(std::function<RunStatistics()> statistics) {
     statistics_source_ = std::move(statistics);
   }
@@ -30,15 +30,15 @@ class RunEvents : public WorkObserver {
   void worked() override { event(RunEvent::kProgress); }
 
   void event(RunEvent event);
-  // Reports the lower bound. Does nothing if the observer has it already.
+  // Reports the lower bound if it exceeds the bound reported last.
   void bound(Cost lower_bound);
-  // Calls `prove`, which raises the lower bound outside the tree search and returns it. No other
-  // event is reported in between.
+  // Calls `prove`, which raises the lower bound outside the tree search and returns it, and reports
+  // the bound. No other event is reported in between.
   void bound_beside(BoundSource by, const std::function<Cost()>& prove);
   void infeasible(std::string_view reason);
-  // The observer already has this lower bound. Call before the search.
+  // Treats `lower_bound` as reported. Must be called before the search.
   void bound_is_known(Cost lower_bound) { announced_bound_ = lower_bound; }
-  // Reports a new incumbent. Call before the nodes of higher cost are dropped.
+  // Reports a new incumbent. Must be called before the nodes of higher cost are dropped.
   void incumbent(const Plan& plan, PlanSource source);
   void root(const NodePtr& root);
   void checkpoint(const CheckpointReport& report);
@@ -51,7 +51,7 @@ class RunEvents : public WorkObserver {
   const std::function<Progress()> progress_;
   std::function<RunStatistics()> statistics_source_;  // may be empty
   std::mutex mutex_;
-  Cost announced_bound_ = 0;  // under mutex_
+  Cost announced_bound_ = 0;  // guarded by mutex_
 };
 
 }  // namespace grove::detail

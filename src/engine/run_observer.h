@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Interfaces to observe a run, for the log, the progress line and tests, and its expansions.
+// Interfaces to observe a run and its expansions, for the log, the progress line and tests.
 #pragma once
 
 #include <cstdint>
@@ -27,33 +27,35 @@ struct Progress {
 };
 
 enum class RunEvent : std::uint8_t {
-  kProgress,   // after every work item: throttle it
+  kProgress,   // a work item was completed; very frequent, so the observer must throttle
   kBound,      // the lower bound rose
   kTree,       // a new tree was instantiated
   kIncumbent,  // a better plan was found
-  kEnd,        // the search is over; comes once, last
+  kEnd,        // the search is over; reported once, as the last event
 };
 
-// Base class that does nothing; override what is needed. Called from the threads that run the
-// search, one at a time: return quickly. References are valid during the call. The nodes end with
-// the run: do not keep any.
+// Observer of a run. The base class does nothing. The threads that run the search call it, one call
+// at a time. The calling thread does not search during the call, so functions should return
+// quickly. References are valid only during the call. Nodes must not be kept, because they live
+// only as long as the run.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
 
-  // A better plan was found; comes right before its kIncumbent. To save the plan, do so before
-  // returning: an announced plan should be safe.
+  // A better plan was found. Called immediately before the kIncumbent event. An observer that saves
+  // plans should do so before it returns, so that a plan is on disk when it is announced.
   virtual void on_incumbent(const Plan& /*plan*/, PlanSource /*source*/,
                             const Progress& /*progress*/) {}
   virtual void on_event(RunEvent /*event*/, const Progress& /*progress*/) {}
-  // The instance was proven infeasible, before any search or outside the trees. `reason` is a
+  // The instance was proven infeasible, before any search or outside the tree search. `reason` is a
   // sentence.
   virtual void on_infeasible(std::string_view /*reason*/) {}
 
-  // For methods that search more than once: a sentence that describes the next search.
+  // Describes the next search in a sentence. Only for methods that search more than once.
   virtual void on_note(std::string_view /*note*/) {}
 
-  // A rise of the bound is about to be reported that was proven outside the tree search.
+  // A bound proven outside the tree search has raised the lower bound. The next kBound event
+  // reports it, unless it is infinite.
   virtual void on_bound_beside(BoundSource /*by*/) {}
 
   // A checkpoint was written, or writing it failed.
@@ -62,21 +64,22 @@ class RunObserver {
   // Called after each event. If it returns true, on_statistics() is called with the statistics of
   // the run so far.
   virtual bool wants_statistics() { return false; }
-  virtual void on_statistics(const RunStatistics& /*statistics*/) {}
+  virtual void on_statistics(const RunStatistics& /*survey*/) {}
 
-  // For observers of the trees, and for tests of the search (planted optimum): every root; every
-  // expansion with its result and the number of the worker, from 0; and the bound from which on
-  // open nodes were dropped. If ranks share a search, only the roots are reported.
+  // For observers of trees and tests of the search (planted optimum): on_root() reports every root;
+  // on_expanded() every expansion with its result and the number of the worker, from 0; on_pruned()
+  // the bound at or above which open nodes were dropped. In a distributed search only roots are
+  // reported.
   virtual void on_root(const NodePtr& /*root*/) {}
   virtual void on_expanded(const NodePtr& /*node*/, const Expansion& /*expansion*/,
                            int /*worker*/) {}
   virtual void on_pruned(Cost /*bound*/) {}
-  // An open node was evicted because memory is short. Its bound is kept until the search has no
-  // nodes left and restarts. Then each root is reported again.
+  // An open node was evicted because memory is short. Its bound is kept until no node is live and
+  // the search restarts; then each root is reported again.
   virtual void on_evicted(const NodePtr& /*node*/) {}
 };
 
-// Forwards everything to another observer; override what is to be added.
+// Forwards every call to another observer. Derived classes override the functions that they change.
 class ForwardingObserver : public RunObserver {
  public:
   // `next` must outlive this.
@@ -108,7 +111,7 @@ class ForwardingObserver : public RunObserver {
   RunObserver& next_;
 };
 
-// Events of node expansion. Base class that does nothing. Thread-safe.
+// Observer of node expansions. The base class does nothing. Thread-safe.
 class WorkObserver {
  public:
   WorkObserver() = default;
@@ -116,7 +119,7 @@ class WorkObserver {
   WorkObserver& operator=(const WorkObserver&) = delete;
   virtual ~WorkObserver() = default;
 
-  // `worker` expanded a node, with this result.
+  // Worker number `worker` expanded `node` with the result `expansion`.
   virtual void expanded(const NodePtr& /*node*/, const Expansion& /*expansion*/, int /*worker*/) {}
   // These nodes were evicted.
   virtual void evicted(std::span<const NodePtr> /*nodes*/) {}

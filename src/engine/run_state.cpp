@@ -49,8 +49,8 @@ void RunState::begin() {
   trees_.begin();
 }
 
-// nodes_changed() is not called before the nodes have been pushed, so no bound is derived from
-// their absence.
+// Does not call nodes_changed(), because the nodes have not been pushed yet and the bound would be
+// derived without them.
 std::optional<std::vector<NodePtr>> RunState::restore(const CheckpointHeader& header) {
   resumed_ = true;
   before_.counters = header.counters;
@@ -121,7 +121,7 @@ Solution RunState::conclude() const {
     solution.stats.counts["nodes_expanded_before"] = nodes_before();
     solution.stats.measures["seconds_before"] = before_.seconds;
   }
-  // A limit reached after the search had ended changed nothing.
+  // A limit that was reached after the end of the search is not reported.
   if (!global_bounds.finished()) {
     const std::string stop = stop_text(limits_.reason());
     const bool evicted = nodes_.evicted_bound() < kInfiniteCost;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// State of a run except its nodes, wherever the nodes are.
+// State of a run except its nodes, which can be in this process or distributed over ranks.
 #pragma once
 
 #include <chrono>
@@ -20,36 +20,37 @@
 
 namespace grove::detail {
 
-// Bounds, trees and observer of a run, from its beginning or a checkpoint to the solution. One
-// thread at a time, except where a method says otherwise.
+// Bounds, trees and observer of a run, from its start or a checkpoint to the solution. One thread
+// at a time, except where a function says otherwise.
 class RunState {
  public:
-  // All must outlive this. The nodes of the trees are made in `pool`.
+  // All arguments must outlive this. The nodes of the trees are made in `pool`.
   RunState(const Problem& problem, const SolveOptions& options, const Limits& limits,
            RunObserver& observer, NodePool& pool, LiveNodes& nodes);
 
-  // For the threads that expand nodes. Thread-safe.
+  // Objects for the threads that expand nodes. Thread-safe.
   CentralBounds& shared_bounds() { return shared_bounds_; }
   const CentralBounds& shared_bounds() const { return shared_bounds_; }
   CentralTrees& trees() { return trees_; }
   RunEvents& run_events() { return run_events_; }
-  // The agents' stops as cached while the first tree was made; initial cache of the workers.
+  // The agents' stops that were computed for the first tree; the workers' caches start with them.
   const AgentStopsCache& stops() const { return stops_; }
 
-  // Call first: posts the start plan and instantiates the first tree.
+  // Posts the start plan and instantiates the first tree. Must be called first, unless restore()
+  // is.
   void begin();
-  // Call instead of begin(): restores the data of a checkpoint and makes its trees again. Returns
-  // their roots by number. Then push the nodes, record the evicted bound, and call restored().
-  // Returns nullopt if a limit was reached: plan and bound are restored, but there is nothing to
-  // search. Throws InputError if the forest makes other trees first.
+  // Restores the data of a checkpoint and makes its trees again. Called instead of begin(). Returns
+  // the roots by tree number; the caller must then push the nodes, record the evicted bound, and
+  // call restored(). Returns nullopt if a limit was reached: then plan and bound are restored, and
+  // the run must not search. Throws InputError if the forest does not make the same trees first.
   std::optional<std::vector<NodePtr>> restore(const CheckpointHeader& header);
   void restored();
 
-  // Returns the header of a checkpoint in which the first `trees` trees count as instantiated.
+  // Returns the header of a checkpoint that records the first `trees` trees as instantiated.
   // Thread-safe.
   CheckpointHeader checkpoint_header(std::int64_t trees, Cost evicted_bound);
-  // Call after all workers have stopped. end() reports the end to the observer. conclude() returns
-  // the solution with the counts of the trees.
+  // Must be called after all workers have stopped. end() reports the end to the observer.
+  // conclude() returns the solution, including the counts of the trees.
   void end() { run_events_.event(RunEvent::kEnd); }
   Solution conclude() const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Statistics of a run at a moment: counts and memory by kind.
+// Statistics of a run at one time: counts, and memory by kind.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct MemoryUse {
   std::int64_t groups = 0;     // cached dependencies of agents
 };
 
-// Counts of a process, by their names in plan files, and its memory.
+// Counts of a process, by their names in plan files, and the memory that it uses.
 struct ProcessStatistics {
   std::map<std::string, std::int64_t> counts;
   MemoryUse memory;
@@ -32,18 +32,18 @@ struct RankStatistics {
   std::int64_t expanded = 0;
   std::int64_t open = 0;
   std::optional<Cost> bound;  // nullopt: the rank holds no node
-  std::int64_t memory = 0;    // bytes, of the process
+  std::int64_t memory = 0;    // resident memory of the process, in bytes
   std::int64_t low_level_calls = 0;
   std::int64_t branching_cost_queries = 0;
 };
 
 struct RunStatistics {
   ProcessStatistics whole;              // sum over all ranks
-  std::map<int, RankStatistics> ranks;  // ranks that have reported so far
-  int rank_count = 0;                   // 0: a single process
+  std::map<int, RankStatistics> ranks;  // by rank: ranks that have reported so far
+  int rank_count = 0;                   // 0: not a distributed run
 };
 
-// Adds counts and bytes.
+// Adds the counts and bytes of `part` to `sum`.
 inline void add(const ProcessStatistics& part, ProcessStatistics& sum) {
   for (const auto& [name, count] : part.counts) sum.counts[name] += count;
   sum.memory.process += part.memory.process;
@@ -53,7 +53,7 @@ inline void add(const ProcessStatistics& part, ProcessStatistics& sum) {
   sum.memory.groups += part.memory.groups;
 }
 
-// Adds counts and bytes; copies the entries of `part.ranks`.
+// Adds the counts and bytes of `part` to `sum`, and copies the entries of `part.ranks` to it.
 inline void add(const RunStatistics& part, RunStatistics& sum) {
   add(part.whole, sum.whole);
   for (const auto& [rank, statistics] : part.ranks) sum.ranks[rank] = statistics;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Serialisation of values to bytes, for files and messages, with cereal. The encoding is the same
 // on every machine:
-// - Integers: LEB128, 7 bits per byte, low bits first; signed ones are zigzag-encoded. The
-//   constraints of a node are mostly small numbers: they take a third of their fixed-width size,
-//   and a checkpoint of millions of nodes is written in half the time.
-// - Floating-point numbers, and arrays of numbers (packed paths): fixed width, little-endian.
+// - Integers: LEB128, 7 bits per byte, low bits first; signed integers are zigzag-encoded. The
+//   constraints of a node are mostly small numbers, so they take a third of their fixed-width size,
+//   and writing a checkpoint of millions of nodes takes half the time.
+// - Numbers of one byte, floating-point numbers, and arrays of numbers (packed paths): fixed width,
+//   little-endian.
 //
-// A type takes part by a function serialize(Archive&, T&) in its namespace, like those below. It
-// may consist of numbers, strings, vectors, maps and optionals. The receiver must check what the
-// type does not express, for instance that cells are on the map and that paths are walks.
+// A type can be serialised if its namespace has a function serialize(Archive&, T&) like those
+// below. Its members can be numbers, strings, vectors, maps, optionals and other such types. The
+// receiver must check everything that the type does not express, for instance that cells are on the
+// map and that each step of a path is a move or a wait.
 #pragma once
 
 #include <algorithm>
@@ -64,13 +66,14 @@ class BytesOutput : public cereal::OutputArchive<BytesOutput, cereal::AllowEmpty
   std::string& bytes_;
 };
 
-// Input archive for untrusted bytes. An element of a container takes at least one byte, so a count
-// that exceeds the remaining bytes is refused before memory is allocated. A decoded value takes at
-// most about 40 times the memory of its bytes. A number with a longer encoding than necessary is
-// refused, so that each value has exactly one encoding. Throws cereal::Exception.
+// Input archive for untrusted bytes. Each element of a container takes at least one byte, so the
+// archive refuses a count that exceeds the number of remaining bytes, before it allocates memory. A
+// decoded value takes at most about 40 times the memory of its bytes. The archive also refuses a
+// number with a longer encoding than necessary, so that each value has exactly one encoding. Throws
+// cereal::Exception.
 class GuardedInput : public cereal::InputArchive<GuardedInput, cereal::AllowEmptyClassElision> {
  public:
-  // Keeps a view of `bytes`.
+  // `bytes` must outlive this.
   explicit GuardedInput(std::string_view bytes) : InputArchive(this), rest_(bytes) {}
 
   std::size_t left() const { return rest_.size(); }
@@ -81,7 +84,7 @@ class GuardedInput : public cereal::InputArchive<GuardedInput, cereal::AllowEmpt
     return byte;
   }
   std::uint64_t get_number() {
-    constexpr int kLastShift = 63;  // only one more bit fits there
+    constexpr int kLastShift = 63;  // shift of the last byte, of which only one bit fits
     std::uint64_t number = 0;
     for (int shift = 0;; shift += 7) {
       const std::uint8_t byte = get();
@@ -108,7 +111,7 @@ class GuardedInput : public cereal::InputArchive<GuardedInput, cereal::AllowEmpt
   std::string_view rest_;
 };
 
-// True for numbers of one byte and floating-point numbers: written at fixed width.
+// True for types that are written at fixed width: numbers of one byte and floating-point numbers.
 template <class T>
 inline constexpr bool kAsItIs = std::is_floating_point_v<T> || sizeof(T) == 1;
 
@@ -166,7 +169,7 @@ void CEREAL_LOAD_FUNCTION_NAME(GuardedInput& in, cereal::SizeTag<T>& tag) {
   in.require(tag.size <= in.left(), "found a number of items above the number of bytes left");
 }
 
-// `size` is the size of all items in bytes.
+// `data.size` is the size of all items in bytes.
 template <class T>
 void CEREAL_SAVE_FUNCTION_NAME(BytesOutput& out, const cereal::BinaryData<T>& data) {
   using Item = std::remove_pointer_t<T>;
@@ -244,8 +247,8 @@ std::string to_bytes(const T& value) {
   return bytes;
 }
 
-// Decodes a value from all of `bytes`. Throws std::invalid_argument if they do not encode a T: too
-// short, too long, or otherwise detectably damaged.
+// Decodes a value, which must take up all of `bytes`. Throws std::invalid_argument if `bytes` does
+// not encode a T: it is too short, too long, or otherwise detectably damaged.
 template <std::default_initializable T>
 T from_bytes(std::string_view bytes) try {
   GuardedInput in(bytes);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Problem: robots may be late while a plan with committed steps is computed. The new plan must be
 // safe for any delays.
-// Claim: every state that robots reach under the old plan within the committed steps is also
-// allowed by the new plan.
+// Claim: the new plan permits every state that robots can reach under the old plan within the
+// committed steps.
 // Proof: the committed steps are a prefix of the old plan. An action waits only for actions that
-// begin no later in the plan, so the actions of the prefix are closed under the dependencies of the
-// passing order. The new plan begins with the same steps, so its passing order agrees with the old
-// one on these actions. Hence robots that carry out some of them while the new plan is computed, in
-// any order of time that the old passing order allows, do what the new one allows.
+// start no later in the plan, so the set of actions of the prefix is closed under the dependencies
+// of the passing order. The new plan starts with the same steps, so its passing order agrees with
+// the old one on these actions. Hence, if robots execute some of these actions while the new plan
+// is computed, in any order that the old passing order permits, the new passing order permits that,
+// too.
 #include "engine/session.h"
 
 #include <fmt/format.h>
@@ -38,8 +39,8 @@ void require_valid_plan_of(const Instance& instance, const Plan& plan) {
   require_valid_plan(instance, solution);
 }
 
-// Converts plans and solutions of the part after the committed steps into those of the whole
-// instance.
+// Observer of the search after the committed steps. Converts its plans and solutions into plans and
+// solutions of the whole instance.
 class WholePlans : public ForwardingObserver {
  public:
   WholePlans(RunObserver& next, const Instance& instance, const Plan& plan, Time commit,
@@ -59,7 +60,7 @@ class WholePlans : public ForwardingObserver {
     if (solution.plan) {
       solution.plan = whole(*solution.plan);
       solution.status = status_of(solution.plan->cost, lower_bound_, solution.omega);
-    } else if (is_stuck) {  // plans with another beginning may exist
+    } else if (is_stuck) {  // plans with other first steps may exist
       solution.status = Status::kUnknown;
       solution.stats.texts["reason"] =
           "the committed steps leave no plan where agents without a destination end as in the old "
@@ -99,9 +100,9 @@ class WholePlans : public ForwardingObserver {
     return true;
   }
 
-  // Cost of the committed steps for any continuation. For an agent that has nothing left to do,
-  // counts the steps until it came to rest. (If it moves again, it costs more than its later moves
-  // alone.)
+  // Lower bound on the cost of the committed steps under any continuation. For an agent that has
+  // nothing left to do, counts the steps until it came to rest; if it moves again, its cost only
+  // increases.
   Cost cost_before() const {
     Cost cost = 0;
     for (AgentIndex agent = 0; agent < later_.agent_count(); ++agent) {
@@ -120,7 +121,7 @@ class WholePlans : public ForwardingObserver {
   std::optional<Cost> cost_;
 };
 
-// State kept between solves: the next solve reuses the distances.
+// Data kept between solves, so that the next solve reuses the distances.
 struct SolvedInstance {
   SolvedInstance(Instance the_instance, const Limits& limits, int threads,
                  const SolvedInstance* before)
@@ -131,7 +132,7 @@ struct SolvedInstance {
   const Problem problem;
 };
 
-// True if presolve leaves the answer to a search.
+// True if presolve does not decide the instance, so that a search is needed.
 bool is_searched(const Problem& problem) {
   return problem.distances.complete() && !presolve_infeasibility(problem);
 }
@@ -143,8 +144,8 @@ Solution unknown(const SolveOptions& options, const std::string& reason) {
   return solution;
 }
 
-// Keeps the paths of the unaffected agents and re-plans the others. Returns nullopt if there is no
-// repaired plan.
+// Returns a plan to start from: keeps the paths of the unaffected agents and re-plans the others.
+// Returns nullopt if the repair fails.
 std::optional<Plan> start_from(const Plan& plan, const std::vector<bool>& affected,
                                const Problem& problem, const SolveOptions& options,
                                const Limits& limits) {
@@ -229,7 +230,7 @@ class Session::Impl {
     Changed changed = apply(before, old_ ? *old_ : standing_plan(before), change);
     for (std::size_t agent = 0; agent < affected_.size(); ++agent) {
       affected_[agent] = affected_[agent] || changed.affected[agent] || !old_;
-      // A re-planned agent may end where the instance says.
+      // A re-planned agent may end wherever the instance permits.
       ends_with_plan_[agent] = ends_with_plan_[agent] && !affected_[agent];
     }
     instance_ = with_ends_of_plan(changed.instance, changed.plan, ends_with_plan_);
@@ -248,8 +249,9 @@ class Session::Impl {
   }
 
  private:
-  // Solves first without the destinations that agents have only because of the old plan. Restores
-  // them if this finds no plan or one of higher cost.
+  // Solves first without the destinations that agents have only because of the old plan. Solves
+  // with these destinations if the first search finds no plan, or one that costs more than the old
+  // plan.
   Solution solve_with_ends_of_plan(const SolveOptions& options, const Limits& limits,
                                    RunObserver& observer, Time commit) {
     const Instance free = without_ends_of_plan(instance_, ends_with_plan_);
@@ -327,11 +329,11 @@ class Session::Impl {
   }
 
   Instance instance_;
-  std::optional<Plan> plan_;    // valid
-  std::optional<Plan> old_;     // valid except for affected agents
+  std::optional<Plan> plan_;    // a valid plan of instance_
+  std::optional<Plan> old_;     // last plan: valid except for the affected agents
   std::vector<bool> affected_;  // by agent
-  std::vector<bool> cut_;       // by agent: its path reaches a closed place; empty: no agent's
-  std::vector<bool> ends_with_plan_;  // by agent (execution/advance.h)
+  std::vector<bool> cut_;       // by agent: its path enters a closed place; empty: no path does
+  std::vector<bool> ends_with_plan_;  // by agent; see execution/advance.h
   std::unique_ptr<SolvedInstance> solved_;
 };
 

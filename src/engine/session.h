@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Re-planning session: an instance and its plan, which advance in time and change.
+// Re-planning session: an instance and its plan, which advance in time and can change.
 #pragma once
 
 #include <memory>
@@ -13,8 +13,8 @@
 
 namespace grove::detail {
 
-// Keeps the map, the distances on it and the plan between two solves. Each solve starts from what
-// can be kept of the plan. One thread at a time.
+// Keeps the map, the distances on it and the plan between solves. Each solve starts from the part
+// of the plan that is still valid. One thread at a time.
 class Session {
  public:
   explicit Session(Instance instance);
@@ -26,46 +26,47 @@ class Session {
 
   // The current instance, with time counted from 0.
   const Instance& instance() const;
-  // A valid plan of instance(). nullopt before the first solve, after a change that invalidates it,
-  // and if a solve found none.
+  // A valid plan of instance(). nullopt if the session has had no plan yet, or if a change
+  // invalidated it and no solve has found a plan since.
   const std::optional<Plan>& plan() const;
 
-  // Advances by `steps` >= 0 steps along the plan, which must exist. Afterwards instance() and
-  // plan() are what remains of them (execution/advance.h). At the end of these steps the robots in
-  // `late` are late, and their delays propagate to the robots that wait for them
-  // (execution/delay.h). Beyond the end of the plan each robot stays where its path ends. Throws
-  // InfeasibleDelay and leaves the session unchanged.
+  // Advances by `steps` >= 0 time steps along the plan, which must exist. At the end of these steps
+  // the robots in `late` are late, and their delays propagate to the robots that wait for them
+  // (execution/delay.h). After the end of its path a robot rests. Replaces instance() and plan() by
+  // what remains of them (execution/advance.h). Throws InfeasibleDelay and then leaves the session
+  // unchanged.
   void advance(Time steps, std::span<const Delay> late = {});
 
-  // Adds or drops tasks and closes parts of the map. If the old plan does not fit any more, plan()
-  // becomes nullopt, but the next solve starts from the old plan. Throws InstanceError
-  // (execution/change.h) and leaves the session unchanged.
+  // Adds or drops tasks and closes parts of the map. If the old plan is no longer valid, plan()
+  // becomes nullopt, but the next solve still starts from the old plan. Throws InstanceError
+  // (execution/change.h) and then leaves the session unchanged.
   void change(const InstanceChange& change);
 
   // Solves the current instance as grove::detail::solve() does. The search starts from the old
   // plan, repaired where it is invalid; options.start is ignored.
   //
-  // All robots keep to the old plan, or to what a change left of it, for `commit` steps; the new
-  // plan begins with these steps. In this case lower_bound holds for all plans. The bound for the
-  // plans that begin with the committed steps is counts["lower_bound_committed"]. It is present if
-  // each agent has a destination or nothing to do; an agent without a destination must end on a
-  // remaining task, or as in the old plan.
+  // If `commit` > 0, the new plan starts with the first `commit` steps of the old plan, or of the
+  // part of it that a change left. lower_bound then holds for all plans. The bound on the plans
+  // that start with the committed steps is counts["lower_bound_committed"]. It is set only if each
+  // agent may still rest wherever it may in the original instance. Otherwise it would be no valid
+  // bound, because after the committed steps the search lets an agent without a destination end
+  // only on a remaining task or as in the old plan.
   //
-  // Agents whose destination exists only because of the old plan (advance.h) are first solved
-  // without it. If that finds no plan, or one that costs more than a still valid old plan, they
-  // keep the destination, and texts["ends_of_old_plan"] lists their ids.
+  // The instance is first solved without the destinations that agents have only because of the old
+  // plan (execution/advance.h). If that finds no plan, or one that costs more than a still valid
+  // old plan, the agents keep these destinations, and texts["ends_of_old_plan"] lists their ids.
   //
-  // Every plan, including those passed to `observer`, has passed the independent checker
-  // (InvalidPlan). Throws as solve() does, and NotCommitted.
+  // The independent checker has verified every plan, including those passed to `observer`. Throws
+  // what solve() throws, InvalidPlan, and NotCommitted.
   Solution solve(const SolveOptions& options, const Limits& limits, RunObserver* observer = nullptr,
                  Time commit = 0);
 
-  // Thrown if a robot's path ends at a closed part of the map before the committed steps do.
+  // Thrown if a robot's path ends at a closed part of the map before the committed steps end.
   struct NotCommitted : std::invalid_argument {
     NotCommitted(AgentIndex the_agent, Time the_steps)
         : std::invalid_argument("a committed path is closed"), agent(the_agent), steps(the_steps) {}
     AgentIndex agent;
-    Time steps;  // that the robot can keep to
+    Time steps;  // number of steps for which the robot can follow the old plan
   };
 
  private:

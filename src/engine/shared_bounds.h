@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Interface to the global bounds, for the threads that expand nodes, and sources of bounds.
+// Interface through which expanding threads use the global bounds; sources of lower bounds.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace grove::detail {
 
-// Source of a lower bound outside the tree search. The values are used in messages.
+// Source of a lower bound proven outside the tree search. Messages contain the numeric values.
 enum class BoundSource : std::uint8_t {
   kJointSearch,  // A* over joint states
   kLagrangian,   // Lagrangian relaxation
@@ -23,9 +23,9 @@ constexpr std::string_view name_of(BoundSource by) {
   return by == BoundSource::kJointSearch ? "joint" : "lagrangian";
 }
 
-// Incumbent and lower bound of a run, as far as this process has them. CentralBounds implements it
-// where the bounds are kept; in other processes an implementation stores what was last received.
-// Thread-safe; no method blocks for long.
+// Incumbent and lower bound of a run, as known in this process. CentralBounds implements the
+// interface in the process that holds the bounds; the implementation in other processes stores the
+// bounds received last. Thread-safe. No function blocks for long.
 class SharedBounds {
  public:
   SharedBounds() = default;
@@ -33,22 +33,22 @@ class SharedBounds {
   SharedBounds& operator=(const SharedBounds&) = delete;
   virtual ~SharedBounds() = default;
 
-  // True if there is nothing left to do or a limit was reached.
+  // True if the run is complete or a limit was reached.
   virtual bool over() const = 0;
-  // Cost of the incumbent, which was checked: nodes of this bound or more need not be expanded.
-  // kInfiniteCost: no incumbent.
+  // Cost of the incumbent, which has been checked. Nodes with this bound or a higher one need not
+  // be expanded. kInfiniteCost: no incumbent.
   virtual Cost cutoff() const = 0;
   // Returns the incumbent if it costs less than `cost`, else nullopt.
   virtual std::optional<Plan> plan_below(Cost cost) const = 0;
   // Proven lower bound: no plan costs less.
   virtual Cost lower_bound() const = 0;
 
-  // Offers a plan.
+  // Offers a plan. It becomes the incumbent if it is valid and better than the current one.
   virtual void post(Plan plan, PlanSource source) = 0;
-  // Reports a bound proven outside the tree search: no plan costs less, except plans that cost at
-  // least cutoff() at the time of the proof. kInfiniteCost: there is no other plan.
+  // Reports a lower bound proven outside the tree search on all plans that cost less than cutoff()
+  // at the time of the proof. kInfiniteCost: no such plan exists.
   virtual void prove(Cost bound, BoundSource by) = 0;
-  // Call after nodes were replaced by their children.
+  // Must be called after a node was replaced by its children.
   virtual void nodes_changed() = 0;
 };
 

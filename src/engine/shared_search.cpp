@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Node selection. With w = 0 the best node is always taken.
 //
-// With w > 0, a plan may be found that no proof has to wait for: in a node whose bound is within w
-// of the lower bound. Among these nodes the best one is the worst place to look: its cost is low,
-// but it may have many conflicts. So, as in explicit estimation search (Li, Ruml and Koenig, AAAI
-// 2021), every other node is chosen by the expected cost of a plan below it. The nodes in between
-// are taken best first and raise the bound.
+// With w > 0, a plan within w of the lower bound ends the run at once. Any node whose bound is
+// within w of the lower bound can lead to such a plan. Among these nodes the one with the least
+// bound is a poor choice, because it often has many conflicts. Therefore, as in explicit estimation
+// search (Li, Ruml and Koenig, AAAI 2021), every second node is selected by the expected cost of a
+// plan below it. The other nodes are selected best first and raise the bound.
 //
-// With an incumbent of cost C, only the bound matters. Every node below C / (1 + w) must be
-// expanded, in any order. Plans that the tree search finds no sooner than neighbourhood search are
-// not worth expanding a node above. So selection is best first, as with w = 0.
+// With an incumbent of cost C, selection is best first, as with w = 0. Every node with a bound
+// below C / (1 + w) must be expanded, in any order. Expanding a node above that bound could only
+// yield a better plan, which neighbourhood search usually finds sooner.
 //
 // A node is live, and counts in the lower bound, until all its children have been pushed.
 #include "engine/shared_search.h"
@@ -27,10 +27,10 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kMaxCacheBytes = std::size_t{1} << 29;  // bytes of cached results
+constexpr std::size_t kMaxCacheBytes = std::size_t{1} << 29;  // max. bytes of cached results
 
 constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
-constexpr std::size_t kMinCacheBytes = 64 << 10;  // bytes; smaller budgets gain nothing
+constexpr std::size_t kMinCacheBytes = 64 << 10;  // bytes; smaller budgets bring no benefit
 
 // Bytes left below `limit`.
 std::size_t room(std::size_t limit) {
@@ -39,27 +39,28 @@ std::size_t room(std::size_t limit) {
 
 }  // namespace
 
-// Memory budgets of a run: for nodes and for the expanders' caches, the memory that the search can
-// evict. One thread at a time.
+// Memory budgets of a run for the two kinds of memory that the search can evict: nodes and the
+// expanders' caches. One thread at a time.
 //
-// Problem: the memory limit is on the resident set, but the resident set is no usable control
-// variable. Memory that evicted nodes free is used for the next nodes and never returns to the
-// system, so a search that evicted until the resident set fell would evict everything.
+// Problem: the memory limit applies to the resident set, but the resident set cannot be controlled
+// by eviction. Memory that evicted nodes free is reused for the next nodes and mostly not returned
+// to the system, so a search that evicted until the resident set fell would evict everything.
 //
-// Solution: measure two things. The resident set decides when memory is short: when 7/8 of the room
-// at the start are used. The memory that the search can evict, by its own account, is then taken as
-// the amount that fits. From then on nodes may hold half of it and the expanders' caches three
-// eighths, because their arrays double as they grow. The resident set should now stay where it is.
-// If it still rises, because other parts grow or small blocks are fragmented, the next alarm is
-// half way to the limit, and the budgets are cut again. Each cut takes an eighth and halves the
-// room, so there are few cuts. If this does not suffice, the limit stops the run.
+// Solution: use two measurements. The resident set decides when memory is short: when it has used
+// 7/8 of the room below the limit at the start. The evictable memory, as the search itself counts
+// it, is then taken as the amount that fits. From then on nodes may hold half of this amount, and
+// the expanders' caches only three eighths, because their arrays double as they grow. The resident
+// set should then no longer rise. If it still rises, because other parts grow or because of
+// fragmentation, the next alarm is half way to the limit, and the budgets are cut again. Each cut
+// takes an eighth and halves the room, so there are few cuts. If this does not suffice, the memory
+// limit stops the run.
 class MemoryBudgets {
  public:
   // `limits` must outlive this. `node_bytes`: initial budget for nodes, in bytes.
   MemoryBudgets(const Limits& limits, std::size_t node_bytes);
 
   // True if the process is near its limit despite the current budgets.
-  bool is_short() const {  // last_resident() may be older than the last cut
+  bool is_short() const {  // last_resident() can be older than the last cut
     return limits_.last_resident() > alarm_ && resident_bytes() > alarm_;
   }
   // Cuts the budgets, given the bytes held now. The caller then evicts down to both budgets,
@@ -135,7 +136,7 @@ bool SharedSearch::gap_is_large() const {
          static_cast<double>(shared_bounds_.lower_bound());
 }
 
-// True if the next node is selected by its expected plan cost.
+// True if the next node is to be selected by its expected plan cost.
 bool SharedSearch::plan_is_wanted() {
   if (omega_ == Omega() || shared_bounds_.cutoff() < kInfiniteCost || !uses_estimates_)
     return false;
@@ -170,9 +171,9 @@ void SharedSearch::finish(const NodePtr& node, Expansion expansion, int worker) 
   shared_bounds_.nodes_changed();
 }
 
-// Evicts the worst nodes. These include the nodes that need not be expanded any more because the
-// incumbent is within w of their bound. A replaced cache is freed when its last user has released
-// it.
+// Evicts the worst nodes if memory is short, and replaces the cache if it is full. The worst nodes
+// include those that need not be expanded because the incumbent is within w of their bound. A
+// replaced cache is freed when its last user releases it.
 void SharedSearch::keep_within_memory() {
   const std::unique_lock lock(keeping_, std::try_to_lock);
   if (!lock) return;
@@ -188,7 +189,7 @@ void SharedSearch::keep_within_memory() {
   max_cache_bytes_ = std::min(kMaxCacheBytes, shares_->for_expanders());
   if (known <= max_cache_bytes_) return;
   auto next = std::make_shared<SharedCache>(SharedCache::Successor{});
-  const std::lock_guard lock_known(knowing_);  // the old memory is freed after it
+  const std::lock_guard lock_known(knowing_);  // the old cache is freed after the lock is released
   known_.swap(next);
 }
 
@@ -197,13 +198,13 @@ std::shared_ptr<SharedCache> SharedSearch::memory() const {
   return known_;
 }
 
-// Remote results may fill half of the cache; the other half is for local ones. A full cache is
-// replaced by an empty one.
+// Results from other ranks can fill half of the cache; the other half is for local results. A full
+// cache is replaced by an empty one.
 bool SharedSearch::has_room_for_facts() const {
   return memory()->bytes() < max_cache_bytes_ / 2;
 }
 
-// The best open node stays. Evicting a leaf frees the ancestors that no other node shares.
+// Keeps the best open node. Evicting a leaf also frees the ancestors that no other node shares.
 void SharedSearch::evict_to(std::size_t bytes) {
   while (pool_.bytes() > bytes && frontier_.open() > 1) {
     const auto evicted = frontier_.evict(frontier_.open() / 16 + 1, 1);

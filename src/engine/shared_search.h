@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// State shared by the workers of a process, and the interface to the trees of the run.
+// State that the workers of a process share, and the interface to the trees of the run.
 #pragma once
 
 #include <atomic>
@@ -19,8 +19,9 @@
 
 namespace grove::detail {
 
-// Supplies trees when they are due. This base class never does, for processes that do not own the
-// trees; CentralTrees does. Thread-safe; no method waits.
+// Supplies trees when they are due. CentralTrees implements it in the process that owns the trees;
+// this base class, for other processes, supplies none. Thread-safe. No function waits for another
+// thread.
 class TreeSource {
  public:
   TreeSource() = default;
@@ -28,24 +29,24 @@ class TreeSource {
   TreeSource& operator=(const TreeSource&) = delete;
   virtual ~TreeSource() = default;
 
-  // Call before taking a node: instantiates the next tree if Algorithm 4 requires it.
+  // Instantiates the next tree if Algorithm 4 requires it. Must be called before a node is taken.
   virtual void instantiate_due_tree() {}
-  // Call if no node is live here: supplies nodes or finds that there are none.
+  // Supplies nodes, or ends the run if there are none. Must be called only if no node is live here.
   virtual void refill_nodes() {}
-  // Returns true if the caller may prepare the next tree before Algorithm 4 requires it. The caller
-  // must then call prepare_tree(). One caller at a time gets true.
+  // Returns true if the caller may prepare the next tree before Algorithm 4 requires it; the caller
+  // must then call prepare_tree(). Only one caller at a time gets true.
   virtual bool claim_preparation() { return false; }
   virtual void prepare_tree() {}
 };
 
 class MemoryBudgets;
 
-// Nodes and cached results of this process. Workers take nodes here and return the expansions: this
-// is CTS-CBS (paper, Algorithms 1 and 4). Thread-safe; no method waits longer than another thread
-// needs for a similar call.
+// Nodes and cached results of this process. The workers' loop over take() and finish() is CTS-CBS
+// (paper, Algorithms 1 and 4). Thread-safe. No function waits longer than a similar call on another
+// thread takes.
 class SharedSearch {
  public:
-  // All must outlive this.
+  // All arguments must outlive this.
   SharedSearch(const SolveOptions& options, const Limits& limits, LocalNodes& nodes,
                SharedBounds& shared_bounds, TreeSource& trees, WorkObserver& observer);
   ~SharedSearch();
@@ -56,23 +57,23 @@ class SharedSearch {
   LagrangianScheduler& lagrangian() { return lagrangian_; }
   bool over() const { return shared_bounds_.over(); }
 
-  // Takes a node to expand, or returns nullptr if there is none now. The caller must return the
-  // node by finish().
+  // Takes a node to expand. Returns nullptr if no node is open. The caller must return the node by
+  // finish().
   NodePtr take();
   // Returns a taken node with its expansion. `worker` is the number of the worker that expanded it.
   void finish(const NodePtr& node, Expansion expansion, int worker);
-  // The node that last came back unfinished, possibly taken by another worker since; nullptr if it
-  // has been finished.
+  // The node that was last returned with an unfinished expansion, even if a worker has taken it
+  // again; nullptr if its expansion has been finished since.
   NodePtr unfinished() const;
   // Effort to spend on bounding nodes. A rank reduces it while other ranks wait for nodes.
   BoundingEffort bounding_effort() const { return bounding_effort_; }
   void set_bounding_effort(BoundingEffort bounding_effort) { bounding_effort_ = bounding_effort; }
-  // True if an idle worker may find work.
+  // True if an idle worker can find a work item.
   bool may_take() const {
     return frontier_.open() > 0 || frontier_.live() == 0 || lagrangian_.has_jobs();
   }
 
-  // True if more is proven outside the tree search than by its nodes.
+  // True if the lower bound proven outside the tree search exceeds that of the nodes.
   bool tree_bound_is_dominated() const { return frontier_.bound() < shared_bounds_.lower_bound(); }
 
   // True if the gap exceeds large_gap.
@@ -82,12 +83,12 @@ class SharedSearch {
   void keep_within_memory();
   // Cached results, for the expanders.
   std::shared_ptr<SharedCache> memory() const;
-  // True if the cache has room for results of other ranks.
+  // True if the cache has room for results from other ranks.
   bool has_room_for_facts() const;
 
   // Adds the counts of this object to the statistics of the solution.
   void add_counts(Stats& stats) const;
-  // Memory that this process holds now.
+  // Memory that this process uses now.
   MemoryUse memory_use() const;
 
  private:
@@ -115,13 +116,13 @@ class SharedSearch {
   std::mutex keeping_;  // guards the budgets
   const std::unique_ptr<MemoryBudgets> shares_;
 
-  std::atomic<std::size_t> max_cache_bytes_;  // max. bytes of cached results
+  std::atomic<std::size_t> max_cache_bytes_;  // maximum size of the cached results in bytes
   mutable std::mutex knowing_;
   std::shared_ptr<SharedCache>
-      known_;  // under knowing_: GCC 11 has no std::atomic<std::shared_ptr>
+      known_;  // guarded by knowing_: GCC 11 has no std::atomic<std::shared_ptr>
 
   mutable std::mutex helping_;
-  NodePtr unfinished_;  // under helping_
+  NodePtr unfinished_;  // guarded by helping_
 };
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Solves an instance: by presolve if that suffices, else by workers that share one search.
+// Solves an instance by presolve if that suffices, otherwise by workers that share one search.
 #include "engine/solve.h"
 
 #include <new>
@@ -21,8 +21,8 @@
 namespace grove::detail {
 namespace {
 
-// Instantiates the first tree or restores the checkpoint. Returns false if there is nothing to
-// search.
+// Instantiates the first tree or restores the checkpoint. Returns false if a limit was reached and
+// the run must not search.
 bool begin(const Problem& problem, const SolveOptions& options, RunState& run, LocalNodes& nodes) {
   if (options.resume) return restore(*options.resume, problem.instance, run, nodes);
   run.begin();
@@ -67,7 +67,7 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
   RunState run(problem, options, limits, observer, nodes.pool, nodes);
   SharedSearch shared(options, limits, nodes, run.shared_bounds(), run.trees(), run.run_events());
   LocalCheckpoints checkpoints(options, limits, run, nodes);
-  Stats stats;  // of destroyed workers
+  Stats stats;  // counts of workers that are already destroyed
   std::optional<Workers> workers;
   run.run_events().set_statistics_source([&] {
     Stats so_far = stats;
@@ -107,8 +107,8 @@ Solution without_search(const SolveOptions& options, Status status, const std::s
   return solution;
 }
 
-// Solution when a limit was reached before the search: the start plan, and the bound and plan of an
-// earlier run, if any.
+// Returns the solution of a run that reached a limit before the search: the start plan, and the
+// bound and plan of a resumed run, if any.
 Solution stopped_before_search(const Instance& instance, const SolveOptions& options,
                                const Limits& limits, RunObserver& observer) {
   Solution solution =
@@ -148,7 +148,7 @@ Solution solve(const Problem& problem, const SolveOptions& options, const Limits
   try {
     if (auto answer = presolve(problem, options, limits, watcher)) return std::move(*answer);
     return search(problem, options, limits, watcher);
-  } catch (const std::bad_alloc&) {  // before the search
+  } catch (const std::bad_alloc&) {  // thrown before the search
     limits.memory_exhausted();
     return stopped_before_search(problem.instance, options, limits, watcher);
   }

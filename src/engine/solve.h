@@ -20,11 +20,11 @@ class CheckpointReader;  // engine/checkpoint.h
 class RunObserver;       // engine/run_observer.h
 struct Problem;          // search/problem.h
 
-// What a tree of the forest fixes about the sequences of the agents.
+// The part of the agents' sequences that a tree of the forest fixes.
 enum class Policy : std::uint8_t {
   kAuto,   // the engine's choice: kFree
   kFixed,  // one complete joint task sequence per tree: the paper's CTS-CBS
-  kFree,   // one tree for all sequences: the low level chooses the order
+  kFree,   // one tree for all sequences; the low level chooses the order
 };
 
 struct SolveOptions {
@@ -32,35 +32,35 @@ struct SolveOptions {
 
   Omega omega;
   Policy policy = Policy::kAuto;
-  RtspBackend rtsp = RtspBackend::kAuto;  // for kFixed
-  // Only kOwn with kFixed. With a low level other than kOwn no technique is used: plain CBS.
+  RtspBackend rtsp = RtspBackend::kAuto;  // used only with kFixed
+  // Must be kOwn with kFixed. Any low level other than kOwn implies plain CBS, without techniques.
   LowLevel low_level = LowLevel::kOwn;
   int threads = 1;  // at least 1
-  // The run depends only on the work done, not on threads or clock: the same plan and the same
-  // events for any number of threads, unless a limit is reached.
+  // The run depends neither on the number of threads nor on the clock: it finds the same plan and
+  // reports the same events for any number of threads, unless a limit is reached.
   bool deterministic = false;
-  // Breaks ties among conflicts of equal time and seeds the primal search. The same seed gives the
-  // same run (one thread, or deterministic), unless a limit is reached.
+  // Breaks ties among conflicts at the same time, and seeds the primal search. With one thread or
+  // `deterministic`, the same seed gives the same run, unless a limit is reached.
   std::uint64_t seed = 0;
-  // Technique::kPrimal is not used with kFixed.
+  // Not used with kFixed or a low level other than kOwn; see techniques_of().
   Techniques techniques = Techniques::defaults();
   Tuning tuning = {};
   std::optional<Plan> start = std::nullopt;  // the first incumbent, a valid plan
   Checkpoints checkpoints = {};
   // Checkpoint of an earlier run of the same instance and policy, to resume from; nullptr: none.
-  // Read by solve(); owned by the caller.
+  // solve() reads it; the caller owns it.
   CheckpointReader* resume = nullptr;
-  // Max. bytes of open nodes and their ancestors; beyond, the worst nodes are evicted. kUnlimited:
-  // the memory limit of the run decides.
+  // Maximum size of open nodes and their ancestors, in bytes; above it the worst nodes are evicted.
+  // kUnlimited: only the memory limit of the run applies.
   std::size_t node_memory = kUnlimited;
-  // See SearchOptions::audit.
+  // Whether expanded nodes are audited; see SearchOptions::audit.
   bool audit = false;
-  // See SearchOptions::proof. Must outlive the run.
+  // Proof log, or nullptr for none; see SearchOptions::proof. Must outlive the run.
   ProofLog* proof = nullptr;
 };
 
-// The paper's policy kFixed is for cross-checks, and the published low levels are for comparison:
-// both use plain CBS.
+// Returns the techniques that a run uses: none, that is plain CBS, with policy kFixed (for
+// cross-checks with the paper) or a published low level (for comparison).
 inline Techniques techniques_of(const SolveOptions& options) {
   const bool plain = options.policy == Policy::kFixed || options.low_level != LowLevel::kOwn;
   return plain ? Techniques() : options.techniques;
@@ -71,20 +71,21 @@ inline SearchOptions search_options_of(const SolveOptions& options) {
           options.tuning,         options.proof, options.deterministic};
 }
 
-// Solves `instance` to `options.omega`, or until a limit is reached. Always returns a proven lower
-// bound. `observer` (may be null) is called from any thread, one at a time. Throws what the
+// Solves `instance` to within `options.omega`, or until a limit is reached. Always returns a proven
+// lower bound. Any thread can call `observer` (or nullptr), one call at a time. Throws what the
 // observer throws, what reading the checkpoint throws (InputError), and std::logic_error or
-// std::runtime_error if a part of the search fails: the checker refuses a plan, `options.start`
-// included, or CBC fails.
+// std::runtime_error if a part of the search fails, that is, if the checker refuses a plan
+// (including `options.start`) or CBC fails.
 Solution solve(const Instance& instance, const SolveOptions& options, const Limits& limits,
                RunObserver* observer = nullptr);
 
-// The same for a problem that the caller keeps.
+// Solves an instance whose Problem the caller keeps; otherwise like the overload above.
 Solution solve(const Problem& problem, const SolveOptions& options, const Limits& limits,
                RunObserver* observer = nullptr);
 
-// Returns the solution if no search is needed: the instance is seen to be infeasible, or a limit
-// was reached before `problem` was complete. Returns nullopt if a search is needed. For engines.
+// Returns the solution if no search is needed because the instance is found infeasible, or because
+// a limit was reached before `problem` was complete. Returns nullopt if a search is needed. For
+// engines.
 std::optional<Solution> presolve(const Problem& problem, const SolveOptions& options,
                                  const Limits& limits, RunObserver& observer);
 

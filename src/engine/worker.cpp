@@ -14,7 +14,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::int64_t kRootWorkPerPair = 8;  // assumed work of the root per pair of agents
+constexpr std::int64_t kRootWorkPerPair = 8;  // assumed effort for the root per pair of agents
 
 constexpr double kGoldenRatio = 0.6180339887;  // its multiples spread evenly over [0, 1)
 
@@ -25,7 +25,7 @@ std::string count_of_splits(ConstraintKind kind) {
   return name;
 }
 
-// Runs `what` on an expander and records its work, counts and new cache entries in the item.
+// Runs `what` with the expander `by`, and records effort, counts and new cache entries in the item.
 template <class What>
 void run_and_measure(Worker::WorkItem& turn, Expander& by, const What& what) {
   by.use_shared_cache(turn.memory);
@@ -53,7 +53,7 @@ Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits
       joint_(std::make_unique<JointScheduler>(
           problem.instance, options.tuning,
           number == 0 && techniques_of(options).has(Technique::kJointSearch))) {
-  // Expanding the root takes long if there are many pairs of agents.
+  // Counts the root in advance, because expanding it takes long if there are many pairs of agents.
   const std::int64_t agents = problem.instance.agent_count();
   share_->add_tree_work(kRootWorkPerPair * agents * agents);
   if (number == 0 && techniques_of(options).has(Technique::kLagrangian))
@@ -96,7 +96,7 @@ std::optional<Worker::WorkItem> Worker::choose() {
   return lagrangian();
 }
 
-// Returns the primal search after giving it the incumbent and the latest dual solution.
+// Returns the primal search, updated with the incumbent and the latest dual solution.
 PrimalSearch& Worker::primal() {
   if (!primal_)
     primal_ = std::make_unique<PrimalSearch>(problem_, primal_stops_,
@@ -196,7 +196,7 @@ void Worker::commit(WorkItem& turn) {
   shared_.observer().worked();
 }
 
-// Reports work to the schedulers of joint search and Lagrangian bound.
+// Reports effort to the schedulers of the joint search and the Lagrangian bound.
 void Worker::add_other_work(std::int64_t work) {
   joint_->add_other_work(work);
   shared_.lagrangian().add_other_work(work);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Worker of a run: performs one work item after the other.
+// Worker of a run, which performs one work item after the other.
 #pragma once
 
 #include <memory>
@@ -18,11 +18,11 @@ class JointScheduler;
 class PrimalScheduler;
 
 // Has an expander and a primal search. Worker 0 also has the search over joint states, for
-// instances with few of them. One thread at a time, except where a method says otherwise.
+// instances with few joint states. One thread at a time, except where a function says otherwise.
 class Worker {
  public:
-  // All must outlive this, except `stops`, which is copied. `number` counts from 0; it also selects
-  // the seed of the primal search.
+  // All arguments must outlive this, except `stops`, which is copied. `number`: number of the
+  // worker, from 0; also selects the seed of its primal search.
   Worker(const Problem& problem, const SolveOptions& options, const Limits& limits,
          SharedSearch& shared, const AgentStopsCache& stops, int number);
   ~Worker();
@@ -36,19 +36,19 @@ class Worker {
     Job job;
     NodePtr node;                                            // to expand or to assist with
     BoundingEffort bounding_effort = BoundingEffort::kFull;  // used for expanding it
-    std::shared_ptr<SharedCache> memory;                     // cache to use
+    std::shared_ptr<SharedCache> memory;                     // shared cache to use
     CacheDelta found;
     Expansion expansion;
     std::optional<Plan> plan;
-    Cost proven = 0;  // by the joint search; see SharedBounds::prove()
+    Cost proven = 0;  // bound by the joint search; see SharedBounds::prove()
     LagrangianBound::Job lagrangian;
-    std::int64_t work = 0;   // see search/work.h
-    ExpansionCounts counts;  // added by this item
+    std::int64_t work = 0;   // effort; see search/work.h
+    ExpansionCounts counts;  // counts added by this item
   };
 
-  // Chooses and completes one work item: expands a node, assists another worker with one, runs the
-  // primal or the joint search for about a millisecond, prices some agents for the Lagrangian
-  // bound, or prepares the next tree. Returns false if there is nothing to do now.
+  // Chooses and completes one work item: expands a node, assists another worker with its node, runs
+  // the primal or the joint search for about a millisecond, solves some pricing problems of the
+  // Lagrangian bound, or prepares the next tree. Returns false if no work item is available.
   bool turn() {
     std::optional<WorkItem> turn = choose();
     if (!turn) return false;
@@ -58,16 +58,17 @@ class Worker {
     return true;
   }
 
-  // turn() in four parts. choose() selects the item and returns nullopt if there is none. perform()
-  // does it and only reads shared data. publish() merges the cache entries that it found into the
-  // shared cache. commit() posts its results. Several items that expand nodes may be performed
-  // concurrently, each by another expander. publish() is thread-safe.
+  // The four parts of turn(). choose() selects an item and returns nullopt if none is available.
+  // perform() does the work of the item and only reads shared data. publish() merges the item's new
+  // cache entries into the shared cache. commit() posts the item's results. Several items that
+  // expand nodes can be performed concurrently, each by a different expander. publish() is
+  // thread-safe.
   std::optional<WorkItem> choose();
   void perform(WorkItem& turn, Expander& by);
   static void publish(WorkItem& turn);
   void commit(WorkItem& turn);
-  // The worker's own expander, made on first use. One thread at a time; not necessarily the
-  // worker's.
+  // The worker's own expander, made on first use. One thread at a time, which need not be the
+  // worker's thread.
   Expander& expander();
 
   // Adds the counts of all committed items. Thread-safe.
@@ -88,8 +89,8 @@ class Worker {
   const Limits& limits_;
   SharedSearch& shared_;
   const int number_;
-  // The expander and the primal search have a cache each, because different threads may use them.
-  // Both are made when first due.
+  // The expander and the primal search are made when first due. Each has its own cache, because
+  // different threads can use them.
   AgentStopsCache expander_stops_;
   std::unique_ptr<Expander> expander_;
   AgentStopsCache primal_stops_;
@@ -97,9 +98,9 @@ class Worker {
   const std::unique_ptr<PrimalScheduler> share_;
   const std::unique_ptr<JointScheduler> joint_;
   std::optional<Pricer> pricer_;  // made when first due
-  NodePtr helped_;                // the last node found with nothing left to assist with
+  NodePtr helped_;                // last node for which there was nothing left to assist with
 
-  mutable std::mutex counting_;  // guards the counts below:
+  mutable std::mutex counting_;  // guards the counts below
   ExpansionCounts of_tree_;
   PrimalSearch::Counts of_primal_;
   std::int64_t helps_ = 0;

@@ -1,35 +1,37 @@
 // SPDX-License-Identifier: MIT
-// Why robots that keep to the action dependency graph neither collide nor wait for ever.
+// Proof that robots that execute an action dependency graph neither collide nor wait for ever.
 //
-// Definitions. For each place, the plan defines a row: the stays of robots on this place, in order
-// of time. A stay begins with the robot's move onto the place and ends with its move away. In a
-// plan without vertex conflicts the stays of a place do not overlap, so the row is well defined.
+// Definitions. The *row* of a place is the list of the stays of robots on this place in the plan,
+// in order of time. A stay begins with the robot's move onto the place and ends with its move away.
+// In a plan without vertex conflicts the stays on a place do not overlap, so the row is well
+// defined.
 //
-// Claim 1: robots do not collide, whatever the delays. Proof: an action that enters a place waits
-// until the previous robot in the row has completed its move away, which itself waited for the
-// robot before, and so on. So stays, counted from the begin of the move onto the place to the end
-// of the move away, do not overlap during execution either. Within a ring they touch: in one joint
-// step each robot enters the place that the next one leaves. Two robots never swap places: in a
-// swap each would have to enter a place that the other one leaves in the same step. The plan
-// excludes this, so a ring has at least three robots.
+// Claim 1: robots do not collide, whatever the delays. Proof: a move onto a place begins only after
+// the previous robot in the row has completed its move away. By induction over the row, the stays
+// on a place, each from the begin of the move onto it to the end of the move away, do not overlap
+// during execution either. The exception is a ring: in one joint step each robot enters the place
+// that the next robot leaves. Two robots never swap places, because in a swap each robot enters the
+// place that the other one leaves, so the two moves would be a ring. The plan contains no swap, so
+// every ring has at least three robots.
 //
 // Claim 2: as long as every robot completes the actions that it has begun, the first incomplete
-// step can be completed. Proof: let an action wait directly for another one. (a) It is a later
-// action of the same robot, which begins later in the plan; or (b) it enters a place that the other
-// action leaves. In case (b) the other action begins no later in the plan, because the place is
-// empty before it is entered, at the end of a move. So along a cycle of waits the begin times would
-// never rise, and they would fall at each wait of kind (a). Hence all waits of a cycle are of kind
-// (b), between moves that begin in the same step of the plan. Each move enters one place and leaves
-// one, and at most one robot leaves or enters a place in that step. So the cycle is a ring of
-// robots that follow each other, without branches. As a joint step it does not wait for itself. All
-// other waits lead from earlier to later steps in the order computed here, which is therefore
-// acyclic.
+// step can be completed. Proof: let action x depend directly on action y. Either (a) y is an
+// earlier action of the same robot, which begins earlier in the plan; or (b) x enters the place
+// that y leaves. In case (b) y begins no later than x in the plan, because the robot has left the
+// place when x is completed, and both moves take one time step. Hence along a cycle of dependencies
+// the begin times never rise, and they fall at each dependency of type (a). Therefore all
+// dependencies in a cycle are of type (b), between moves that begin in the same step of the plan.
+// Each of these moves leaves one place and enters another one, and in one step at most one robot
+// leaves a place and at most one enters it. Therefore the cycle is a ring of robots that follow
+// each other, without branches. Because the ring is a joint step, it does not wait for itself. All
+// other dependencies lead from earlier to later steps in the order computed here, so there are no
+// other cycles.
 //
-// Transitive dependencies. Let action x wait for action a of robot i. The wait is redundant if x's
-// robot has waited before x, directly or indirectly, for a, for a later action of robot i, or for a
-// move of a's ring, which is completed together with a. Then a is completed when x may begin. For
-// 16 robots at a time, one pass over all steps in order computes the last action of each of these
-// robots that must be completed before each action can be completed.
+// Transitive dependencies. Let action x depend on action a of robot i. The dependency is redundant
+// if the other dependencies of x's step require, directly or indirectly, that a, a later action of
+// robot i, or a move in the same ring as a is completed first. For groups of 16 robots, one pass
+// over all steps in order computes, for each action, the number of actions of each robot in the
+// group that must be completed before this action is completed.
 #include "execution/action_dependency_graph.h"
 
 #include <algorithm>
@@ -44,15 +46,16 @@ namespace {
 
 constexpr const char* kCollides = "a passing order requires a plan without collisions";
 constexpr int kLanes = 16;
-// By robot of a group: the number of its actions that are completed when a given action is.
+// By robot of a group: the number of its actions that are certainly completed once a given action
+// is completed.
 using VectorClock = std::array<std::int32_t, kLanes>;
 
 void merge_into(VectorClock& known, const VectorClock& more) {
   for (int lane = 0; lane < kLanes; ++lane) known[lane] = std::max(known[lane], more[lane]);
 }
 
-// A robot's stay on a place, with the moves that begin and end it; kNoAction at the start and at
-// the end of the plan.
+// A robot's stay on a place, with the moves that begin and end it. kNoAction: the robot starts
+// there, or rests there at the end of the plan.
 struct Stay {
   Place place = kNoPlace;
   Time begin = 0;
@@ -60,7 +63,7 @@ struct Stay {
   ActionIndex leaves = kNoAction;
 };
 
-// True if a step of a turn from state `from` continues the turn `turn`.
+// True if a step of a turn from state `from` belongs to the turn of action `turn`.
 bool continues(const Instance& instance, const Action& turn, State from) {
   return turn.kind == Action::Kind::kTurn && turn.to == from && instance.pose_of(from).steps > 0;
 }
@@ -80,7 +83,8 @@ ActionDependencyGraph::ActionDependencyGraph(const Instance& instance, const Pla
   remove_transitive();
 }
 
-// Work takes place while the path waits. Of work begun before the start only the rest counts.
+// In a path, an agent waits while it executes a task. For an execution that was in progress at the
+// start, the action covers only the remaining steps.
 void ActionDependencyGraph::add_actions(const Instance& instance, AgentIndex agent,
                                         const AgentPlan& plan) {
   const World& world = instance.world();
@@ -132,8 +136,8 @@ void ActionDependencyGraph::find_waits(const World& world, const Plan& plan) {
   }
 }
 
-// Orders the steps by begin time in the plan. Among actions with the same begin time, a move that
-// leaves a place comes before the move that enters it.
+// Orders the steps by begin time in the plan. Among moves with the same begin time, the move that
+// leaves a place precedes the move that enters it.
 void ActionDependencyGraph::order_steps() {
   std::vector<ActionIndex> by_begin(actions_.size());
   std::iota(by_begin.begin(), by_begin.end(), 0);
@@ -192,7 +196,7 @@ void ActionDependencyGraph::remove_transitive() {
 
 namespace {
 
-// By place: the agent's tasks without duration that are not visited yet.
+// An agent's tasks without duration that are not visited yet, by place.
 using Open = std::multimap<Place, TaskIndex>;
 
 std::vector<Open> open_tasks(const Instance& instance) {

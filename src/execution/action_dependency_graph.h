@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Action dependency graph (ADG; Hoenig et al. 2019, Ma et al. 2017): the actions of a plan, which
-// of them must be completed before which, and the tasks that they visit. Robots that keep to it
-// never collide, whatever their delays.
+// Action dependency graph (ADG; Hoenig et al. 2019, Ma et al. 2017): the actions of a plan, the
+// dependencies between them, and the task visits that they make. Robots that execute their actions
+// in accordance with the dependencies never collide, whatever their delays.
 #pragma once
 
 #include <cstdint>
@@ -16,36 +16,37 @@ namespace grove::detail {
 using ActionIndex = std::int32_t;  // position in ActionDependencyGraph::actions()
 inline constexpr ActionIndex kNoAction = -1;
 
-// An action of a robot: it begins and is completed as a whole.
+// An action of a robot: a move of one step, a turn, or the execution of a task.
 struct Action {
   enum class Kind : std::uint8_t { kMove, kTurn, kWork };
   Kind kind = Kind::kMove;
   AgentIndex agent = -1;
   State from = kNoState;  // base states (world.h)
-  State to = kNoState;    // base state at completion; for work equal to `from`
-  TaskIndex task = -1;    // for work only
-  Time begin = 0;         // begin in the plan
-  Time steps = 1;         // duration without delays
+  State to = kNoState;    // base state at completion; equal to `from` for kWork
+  TaskIndex task = -1;    // for kWork only
+  Time begin = 0;         // begin time in the plan
+  Time steps = 1;         // duration in the plan
 };
 
-// The moves, turns and work of a plan without its waits, and the dependencies between them. An
-// action may begin when
+// The moves, turns and task executions of a plan, without its waits, and the dependencies between
+// these actions. An action may begin when
 // - the previous action of the same robot is completed, and
-// - the action after() is completed. This is the move with which the previous robot on the place
-//   that the action enters leaves this place. A robot that moves occupies both places until it has
+// - the action after(), if any, is completed. For a move onto a place, this is the move with which
+//   the robot that is there before leaves it. A moving robot occupies both places until it has
 //   arrived.
-// The moves of robots that follow each other in a ring depend on each other in a cycle. They are
-// one joint step: they begin together, when each of them may begin except for this cycle, and they
-// are completed together. There are no other cycles; the proof is in action_dependency_graph.cpp.
-// Immutable: any thread may read it.
+// The moves of robots that follow each other in a ring depend on each other in a cycle. Such moves
+// are one joint step. They begin together, when all their dependencies outside the ring are
+// fulfilled, and they are completed together. There are no other cycles; proof:
+// action_dependency_graph.cpp. Immutable: any thread may read it.
 class ActionDependencyGraph {
  public:
-  // Throws std::invalid_argument if `plan` is not a plan without collisions. Transitive
-  // dependencies are removed: an action depends on another robot's action only if it could
-  // otherwise begin before that one is completed. O(actions * (log actions + agents / 16)).
+  // Throws std::invalid_argument if `plan` has collisions or lacks agents. Removes transitive
+  // dependencies, which are dependencies on another robot's action that the remaining ones imply.
+  // O(actions * (log actions + agents / 16)).
   ActionDependencyGraph(const Instance& instance, const Plan& plan);
 
-  // Ordered by agent, then by time.
+  // All actions, ordered by agent, then by time. The actions of an agent are begin_of(agent), ...,
+  // end_of(agent) - 1.
   std::span<const Action> actions() const { return actions_; }
   int agent_count() const { return static_cast<int>(first_.size()) - 1; }
   ActionIndex begin_of(AgentIndex agent) const { return first_[agent]; }
@@ -54,15 +55,15 @@ class ActionDependencyGraph {
   ActionIndex before(ActionIndex action) const {
     return action == first_[actions_[action].agent] ? kNoAction : action - 1;
   }
-  // The action of another robot that must be completed first; kNoAction if there is none, or if the
-  // dependency is transitive.
+  // The action of another robot that must be completed before `action` begins; kNoAction if there
+  // is none, if the dependency is transitive, or if both actions belong to one ring.
   ActionIndex after(ActionIndex action) const { return after_[action]; }
-  // Steps, in a topological order. A step is one action, or the moves of a ring, in which each move
-  // enters the place that the next one leaves.
+  // Steps, in a topological order of the dependencies. A step is one action, or the moves of a
+  // ring. In a ring each move enters the place that the next move leaves.
   std::int32_t step_count() const { return steps_.count(); }
   std::span<const ActionIndex> step(std::int32_t number) const { return steps_[number]; }
-  // The number of dependencies between robots that remain, the number that were removed as
-  // transitive, and the number of joint steps.
+  // The number of dependencies between robots that were kept, the number that were removed as
+  // transitive, and the number of rings.
   std::int64_t waits() const { return waits_; }
   std::int64_t transitive_waits() const { return transitive_waits_; }
   std::int64_t rings() const { return rings_; }
@@ -74,7 +75,7 @@ class ActionDependencyGraph {
   void remove_transitive();
 
   std::vector<Action> actions_;
-  std::vector<ActionIndex> first_{0};  // by agent, and the end of the last one
+  std::vector<ActionIndex> first_{0};  // by agent: its first action; then the end of the last agent
   std::vector<ActionIndex> after_;
   CsrArray steps_;
   std::int64_t waits_ = 0;
@@ -82,15 +83,15 @@ class ActionDependencyGraph {
   std::int64_t rings_ = 0;
 };
 
-// The visit is made when `action` is completed; kNoAction: at the start.
+// A visit to a task. It takes place when `action` is completed; kNoAction: at the start.
 struct TaskVisit {
   TaskIndex task = -1;
   ActionIndex action = kNoAction;
 };
 
-// Returns the visits by agent, in the order of its actions. A task without duration is visited when
-// the agent first is on its place; other tasks when their work is done. Tasks that `order` does not
-// visit are omitted.
+// Returns, by agent, the visits to its tasks in order of time. A task without duration is visited
+// when the agent is on its place for the first time, and a task with a duration when its execution
+// is completed. Tasks that the actions do not visit are omitted.
 std::vector<std::vector<TaskVisit>> task_visits(const Instance& instance,
                                                 const ActionDependencyGraph& order);
 

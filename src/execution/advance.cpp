@@ -13,7 +13,8 @@
 namespace grove::detail {
 namespace {
 
-// The finish time: from then on the state does not change and no task is left.
+// The finish time, from which the state does not change and no task execution is in progress or to
+// come.
 Time finish(const AgentPlan& plan) {
   Time last = static_cast<Time>(plan.path.size()) - 1;
   while (last > 0 && plan.path[last - 1] == plan.path.back()) --last;
@@ -29,8 +30,8 @@ Time visit_time(const Instance& instance, const AgentPlan& plan, TaskIndex index
   return static_cast<Time>(std::ranges::find_if(plan.path, is_there) - plan.path.begin());
 }
 
-// An agent that rests on the last stop of its sequence may also have visited that stop before.
-// Moves the tasks on its last place to the end of the sequence.
+// If the agent rests on the last stop of its sequence, moves the tasks on its last place to the end
+// of the sequence. They need not be there, because the agent may have visited that place earlier.
 void end_on_the_place_of_rest(const Instance& instance, AgentIndex agent, AgentPlan& plan) {
   if (!instance.rests_on_last_stop(agent)) return;
   const Place rest = instance.world().place(plan.path.back());
@@ -69,7 +70,7 @@ class AgentLater {
     return spec;
   }
 
-  // `later`: by task of this instance, its index in the later instance.
+  // `later`: by task of `instance`, its index in the remainder.
   AgentPlan plan(const std::vector<TaskIndex>& later) const {
     AgentPlan rest;
     for (const TaskIndex task : plan_.sequence)
@@ -86,7 +87,7 @@ class AgentLater {
  private:
   Time end() const { return static_cast<Time>(plan_.path.size()) - 1; }
 
-  // True if the work continues. Work in progress at the start continues even before the first step.
+  // True if the task execution is not completed at time_.
   bool continues(const WorkTime& work) const { return work.end > time_; }
 
   const WorkTime* work_under_way() const {
@@ -109,8 +110,7 @@ class AgentLater {
 
   Place place_of_rest() const { return instance_.world().place(plan_.path.back()); }
 
-  // The destination in the later instance. For an agent without one: its last place, if that is on
-  // one of its own tasks that is visited already.
+  // The destination in the remainder; see advance().
   std::optional<Place> destination() const {
     const auto rests_on = [&](TaskIndex task) {
       return instance_.task(task).cell == place_of_rest();
@@ -140,7 +140,7 @@ class AgentLater {
   std::vector<TaskIndex> left_;
 };
 
-// A copy of `instance` in which agent i has the specification spec(i).
+// Returns a copy of `instance` in which agent i has the specification spec(i).
 template <class Spec>
 Instance with_specs(const Instance& instance, const Spec& spec) {
   InstanceBuilder builder = InstanceBuilder::like(instance);
@@ -204,7 +204,8 @@ Remainder advance(const Instance& instance, const Plan& plan, Time time, Rests r
 
 namespace {
 
-// The first `time` steps of an agent's plan, as a plan that ends then.
+// Returns the first `time` steps of an agent's plan, with the task executions that are completed by
+// then.
 AgentPlan first_steps(const AgentPlan& plan, Time time) {
   AgentPlan first;
   for (const WorkTime& work : plan.work)

@@ -11,10 +11,10 @@
 namespace grove::detail {
 namespace {
 
-// A map without the closed places and roads, and the new numbers of its places.
+// A map without the closed places and roads, and the new numbers of the remaining places.
 struct ClosedMap {
   std::shared_ptr<const Map> map;
-  std::vector<Place> places;  // by earlier place; kNoPlace: closed
+  std::vector<Place> places;  // by place of the earlier map; kNoPlace: closed
 };
 
 ClosedMap close_cells(const Grid& grid, const std::vector<Place>& blocked) {
@@ -38,7 +38,7 @@ bool is_closed(const Roadmap& roadmap, int road, const InstanceChange& change) {
 
 ClosedMap close_roads(const Roadmap& roadmap, const InstanceChange& change) {
   std::vector<Road> roads;
-  std::vector<int> number;  // by earlier road; -1: closed
+  std::vector<int> number;  // by road of the earlier map: its new number; -1: closed
   for (int road = 0; road < static_cast<int>(roadmap.roads().size()); ++road) {
     const bool closed = is_closed(roadmap, road, change);
     number.push_back(closed ? -1 : static_cast<int>(roads.size()));
@@ -147,7 +147,8 @@ class Applying {
     return fmt::format("blocked/{}", end - change_.blocked.begin());
   }
 
-  // Builds the changed instance. Sets `tasks` to the new index of each task that is left.
+  // Builds the changed instance. Sets `tasks`, by earlier task, to the new index, or -1 for a
+  // dropped task.
   Instance build(std::vector<TaskIndex>& tasks) const {
     InstanceBuilder builder(closed_.map);
     if (!instance_.may_follow()) builder.forbid_following();
@@ -186,7 +187,7 @@ class Applying {
     }
   }
 
-  // The part of the agent's plan that is possible on the new map.
+  // The part of the agent's plan that is still possible on the new map.
   AgentPlan agent_plan(const Instance& now, AgentIndex agent,
                        const std::vector<TaskIndex>& tasks) const {
     const AgentPlan& before = plan_.agents[agent];
@@ -209,7 +210,7 @@ class Applying {
     return plan;
   }
 
-  // True if a wait or a move leads from `from` to `to`.
+  // True if an agent can get from `from` to `to` in one step, by a wait or a move.
   static bool leads_to(const World& world, State from, State to) {
     return from == to || std::ranges::count(world.moves(from), to) > 0;
   }

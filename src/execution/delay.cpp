@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Why the plan is valid.
+// Proof that the plan is valid.
 //
-// Claim: no two robots collide. Proof: every place is passed by the robots in the order of `plan`,
-// and each robot enters it no earlier than the previous one has left it. For an action begins no
-// earlier than the one that it waits for, and both moves take one step. (Dependencies that were
-// removed as transitive hold as well, because begin times never fall along the remaining ones.) So
-// no two robots are on one place at the same time. If two robots swapped places, each would enter a
-// place after the other one has been there. Then their moves would be one step of `plan`, too,
-// which would be a swap.
+// Claim: no two robots collide. Proof: an action begins no earlier than the action on which it
+// depends, and moves take one time step. Therefore robots pass each place in the order of `plan`,
+// and no robot arrives on a place before the previous one has left it. (Dependencies that were
+// removed as transitive hold as well, because begin times never fall along the remaining ones.)
+// Hence no two robots are on one place at the same time. If two robots swapped places, each would
+// enter a place directly after the other one, so their moves would depend on each other. Then they
+// would be a ring of two moves in `plan`, which is a swap, but `plan` has none.
 //
-// Without following, an action waits until the other one has ended, as in an execution
-// (execution_trace.h): it enters a place at least one step after the other robot has left it. Such
-// a plan has no rings, so these waits have no cycle either (action_dependency_graph.cpp). If no
-// robot is late, the plan does not change, because its own actions wait at least as long.
+// Without following, an action begins only when the action on which it depends has ended, as in an
+// execution (execution_trace.h). Therefore a robot arrives on a place at least one step after the
+// previous robot has left it. A plan without following has no rings, so these waits are acyclic
+// (action_dependency_graph.cpp). They do not delay a plan in which no robot is late, because in
+// that plan each action waits at least as long.
 #include "execution/delay.h"
 
 #include <fmt/format.h>
@@ -23,7 +24,7 @@
 namespace grove::detail {
 namespace {
 
-// The begin times of actions if no other robot were in the way.
+// The earliest begin time of each action, without regard to other robots.
 class EarliestTimes {
  public:
   EarliestTimes(const ActionDependencyGraph& order, Time time, std::span<const Delay> late)
@@ -36,8 +37,8 @@ class EarliestTimes {
     if (is_done(action)) return action.begin;
     return is_under_way(action) ? action.begin + late_[action.agent] : time_;
   }
-  // True if the action must have begun at begin(), because the robot is late and is known to have
-  // begun it.
+  // True if the action cannot begin after begin(), because the robot is late and is known to have
+  // begun the action by then.
   bool is_certain(ActionIndex index) const {
     const Action& action = order_.actions()[index];
     return late_[action.agent] > 0 && (is_done(action) || is_under_way(action));
@@ -46,7 +47,7 @@ class EarliestTimes {
  private:
   Time clock(const Action& action) const { return time_ - late_[action.agent]; }
   bool is_done(const Action& action) const { return action.begin + action.steps <= clock(action); }
-  // True if the robot's delay occurred within the action.
+  // True if the robot has begun the action but not completed it at time_.
   bool is_under_way(const Action& action) const {
     return action.begin < clock(action) && !is_done(action);
   }
@@ -83,8 +84,8 @@ void require_possible(const Instance& instance, Time time, std::span<const Delay
   }
 }
 
-// In every plan of an instance, work in progress at the start continues at once. For a late robot
-// it does not, so its work is moved by the delay.
+// Moves the task execution that is in progress at the start by the robot's delay. In every plan of
+// an instance, such an execution continues at time 0; for a late robot it does not.
 void delay_work_begun_before(const Instance& instance, std::span<const Delay> late, Plan& plan) {
   for (const Delay& l : late) {
     if (!instance.world().is_working(instance.agent(l.agent).start)) continue;

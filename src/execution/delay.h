@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The valid plan that results when some robots are late.
+// Computes the valid plan that results from delays of some robots.
 #pragma once
 
 #include <span>
@@ -10,14 +10,14 @@
 
 namespace grove::detail {
 
-// The robot is `steps` steps behind the plan.
+// The robot is `steps` time steps behind the plan.
 struct Delay {
   AgentIndex agent = -1;
   Time steps = 0;
 };
 
-// Thrown for a delay that is impossible: the robot would be at a time before its start, or another
-// late robot would be in its way.
+// Thrown for an impossible delay: the robot would be at a time before its start, or it would have
+// begun an action that it cannot have begun, because another late robot is in its way.
 class InfeasibleDelay : public std::invalid_argument {
  public:
   InfeasibleDelay(AgentIndex agent, const std::string& message)
@@ -28,17 +28,17 @@ class InfeasibleDelay : public std::invalid_argument {
   AgentIndex agent_;
 };
 
-// Returns the valid plan of `instance` that results from `plan`, a valid plan with action
-// dependency graph `order`, if the robots in `late` are late at `time` >= 0. At `time` each robot
-// in `late` is where `plan` had it `steps` steps earlier. Every other robot is as far as `order`
-// permits, on time if possible. From `time` on every action begins as soon as it may, so waits
-// without a purpose are gone.
+// Returns the valid plan of `instance` that results from `plan` if the robots in `late` are late at
+// `time` >= 0. Precondition: `plan` is valid, and `order` is its action dependency graph. At `time`
+// each robot in `late` is in the pose that `plan` has `steps` steps earlier. Every other robot is
+// as far as the dependencies permit, on time if possible. From `time` on, every action begins as
+// soon as its dependencies permit, so the result does not contain the unnecessary waits of `plan`.
 //
-// Times are those of plans: a robot that follows another one enters a place in the step in which
-// the other leaves it or, if Instance::may_follow() is false, in the next step. If `late` is empty,
-// the result is equal to `plan` up to `time`. A late robot that starts at work continues this work
-// later than a valid plan may: its WorkTime is moved by its delay, as advance() requires. Throws
-// InfeasibleDelay.
+// As in every plan, a robot can enter a place in the step in which another robot leaves it or, if
+// Instance::may_follow() is false, in the next step at the earliest. If `late` is empty, the result
+// is equal to `plan` up to `time`. There is one exception to validity: if a late robot starts at
+// work, the WorkTime of that task execution is moved by the delay, as advance() requires, whereas
+// in a valid plan the execution continues at time 0. Throws InfeasibleDelay.
 Plan delayed_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
                   Time time, std::span<const Delay> late);
 

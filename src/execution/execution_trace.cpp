@@ -16,7 +16,8 @@ Time may_begin(const ActionDependencyGraph& order, const ExecutionTrace& trace,
   return std::max(end_of(trace, order.before(action)), end_of(trace, order.after(action)));
 }
 
-// Appends an action that is completed at `end` to the path of a robot. The robot waits before it.
+// Appends an action that is completed at `end` to the executed plan of a robot, with a wait before
+// it if necessary.
 void add_action(const Instance& instance, const AgentPlan& planned, const Action& action, Time end,
                 AgentPlan& executed) {
   Path& path = executed.path;
@@ -24,8 +25,8 @@ void add_action(const Instance& instance, const AgentPlan& planned, const Action
   path.resize(static_cast<std::size_t>(begin) + 1, path.back());
   if (action.kind == Action::Kind::kWork) {
     const Time duration = instance.task(action.task).duration;
-    // Work in progress at the start continues at once, because every plan of the instance has it
-    // so. A delay follows it.
+    // In every plan of the instance, a task execution that is in progress at the start continues at
+    // time 0. Therefore its delay becomes a wait after it.
     const bool is_begun =
         executed.work.empty() && instance.world().is_working(instance.agent(action.agent).start);
     const Time done = is_begun ? action.steps : end;
@@ -35,13 +36,14 @@ void add_action(const Instance& instance, const AgentPlan& planned, const Action
     path.push_back(action.to);
   } else {
     const auto from = planned.path.begin() + action.begin;
-    // The states of the turn as planned, without the waits within it.
+    // Appends the planned states of the turn, without waits between them.
     for (auto state = from + 1; path.back() != action.to; ++state)
       if (*state != path.back()) path.push_back(*state);
   }
 }
 
-// All robots of a ring wait for the last one to arrive.
+// Returns the robot for which the robots of a step wait. All robots of a ring wait for the same
+// one.
 AgentIndex waits_for(const ActionDependencyGraph& order, const ExecutionTrace& trace,
                      std::int32_t step) {
   for (const ActionIndex a : order.step(step)) {
@@ -56,7 +58,7 @@ AgentIndex waits_for(const ActionDependencyGraph& order, const ExecutionTrace& t
 
 }  // namespace
 
-// Only an action that never ends has end kNever.
+// kNever is reserved for actions that are never completed.
 Time end_of_action(Time begin, Time duration) {
   if (duration >= kNever) return kNever;
   if (duration >= kNever - begin) throw std::overflow_error("the execution takes too many steps");

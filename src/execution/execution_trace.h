@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Simulates the execution of a plan by its action dependency graph: each action begins as soon as
-// it may.
+// Simulates the execution of a plan under its action dependency graph, where each action begins as
+// soon as its dependencies permit.
 #pragma once
 
 #include <functional>
@@ -10,43 +10,48 @@
 
 namespace grove::detail {
 
-// Begin and completion time of each action, by ActionIndex; kNever: it was not begun or completed.
+// The begin and completion time of each action, by ActionIndex; kNever if the action was not begun
+// or not completed.
 struct ExecutionTrace {
   std::vector<Time> begin;
   std::vector<Time> end;
 
-  // The completion time of the robot's last action; kNever if it is not completed.
+  // The completion time of the robot's last action; 0 if it has no actions, kNever if the last one
+  // is not completed.
   Time finish(const ActionDependencyGraph& order, AgentIndex agent) const {
     return order.begin_of(agent) == order.end_of(agent) ? 0 : end[order.end_of(agent) - 1];
   }
 };
 
-// The duration of an action that begins at `begin`, at least its duration in the plan. kNever: the
-// robot does not move again. Called once for each action that begins, in the order of steps.
+// Returns the duration in time steps of an action that begins at `begin`, which must be at least
+// its duration in the plan; or kNever if the robot never completes the action. It is called once
+// for each action that begins.
 using Duration = std::function<Time(ActionIndex action, Time begin)>;
 
-// begin + duration; kNever if `duration` is kNever. Throws std::overflow_error if the sum is too
-// large for a time of a plan.
+// Returns begin + duration; kNever if `duration` is kNever. Throws std::overflow_error if the sum
+// is kNever or more.
 Time end_of_action(Time begin, Time duration);
 
-// Simulates the execution. The moves of a ring take as long as the slowest of them. O(actions).
-// Throws std::overflow_error if a time is too large for a plan.
+// Simulates the execution. All moves of a ring take as long as the slowest of them. Calls
+// `duration` in the order of the steps of `order`. O(actions). Throws std::overflow_error if a
+// finite time would reach kNever.
 ExecutionTrace simulate(const ActionDependencyGraph& order, const Duration& duration);
-// The same with the durations of the plan.
+// Simulates the execution without delays: every action takes as long as in the plan.
 ExecutionTrace simulate_nominal(const ActionDependencyGraph& order);
 
-// The plan as it was executed: if an action took longer than its duration in the plan, the
-// difference is a wait before it. If all robots completed all actions, this is a valid plan of
-// `instance`, else the plan of the completed actions.
+// Returns the executed plan. If an action took longer than in `plan`, the plan contains a wait of
+// this difference before it. If all robots completed all actions, the result is a valid plan of
+// `instance`; otherwise it contains only the completed actions.
 Plan executed_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
                    const ExecutionTrace& trace);
 
-// A robot that waits for ever, and the robot that it waits for; itself if it does not move again.
+// A robot that does not complete its actions, and the robot for which it waits; both are the same
+// if the robot does not complete an action that it has begun.
 struct BlockedRobot {
   AgentIndex agent = -1;
   AgentIndex waits_for = -1;
 };
-// All robots that did not complete all their actions.
+// Returns all robots that did not complete all their actions, in order of AgentIndex.
 std::vector<BlockedRobot> blocked_robots(const ActionDependencyGraph& order,
                                          const ExecutionTrace& trace);
 

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Why switches cause neither collisions nor deadlocks.
+// Proof that switches cause neither collisions nor deadlocks.
 //
-// Each place has a row of the robots that will be on it, in order. An action that enters a place
-// begins when the previous robot in the row has completed its move away. So robots never collide,
-// whatever the rows (see action_dependency_graph.cpp). But with some rows, robots would wait in a
-// cycle.
+// The *row* of a place is the list of robots that will be on it, in order. A move onto a place
+// begins only after the previous robot in the row has completed its move away. Therefore robots
+// never collide, whatever the rows are (proof: action_dependency_graph.cpp). However, with
+// arbitrary rows robots could wait in a cycle.
 //
 // A switch moves a robot behind another one in the rows of a group of places. It requires that the
-// robot has not yet begun to enter any of these places. The switch is made only if all incomplete
-// actions then have a topological order, which is computed by repeatedly removing an action that
-// waits for no remaining one. So there is no cycle. As long as robots complete the actions that
-// they have begun, the first incomplete action in that order can be completed. Actions that have
-// begun do not change, because the actions that wait for them stay behind them.
+// robot has not begun to enter any of these places. The switch is made only if afterwards all
+// incomplete actions have a topological order, which is computed by repeatedly removing an action
+// that waits for no remaining action. Hence there is no cycle, and as long as robots complete the
+// actions that they have begun, the first incomplete action in that order can be completed. A
+// switch does not affect actions that have begun: actions that wait for them remain behind them in
+// the rows.
 //
-// The joint step of a ring counts as one action. Waits within the ring are ignored. If a switch
-// puts another robot between two robots of a ring, then the ring waits for itself, so there is no
-// topological order.
+// The joint step of a ring counts as one action, and waits within the ring are ignored. If a switch
+// put another robot between two robots of a ring, the ring would wait for itself through that
+// robot. Then there would be no topological order, so the switch is not made.
 #include "execution/switching.h"
 
 #include <algorithm>
@@ -28,16 +29,16 @@ namespace grove::detail {
 namespace {
 
 constexpr Time kMaxPatienceFactor =
-    64;  // maximum wait, as a multiple of the patience, for a robot that may have failed
+    64;  // maximum wait between attempts, in multiples of `patience`, if no action is in progress
 
 // A robot's stay on a place.
 struct Visit {
   AgentIndex agent = -1;
-  ActionIndex enters = kNoAction;  // kNoAction: it starts there
-  ActionIndex leaves = kNoAction;  // kNoAction: it rests there
+  ActionIndex enters = kNoAction;  // kNoAction: the robot starts there
+  ActionIndex leaves = kNoAction;  // kNoAction: the robot rests there at the end
 };
 
-// The rows of all places, and the dependencies that follow from them.
+// The rows of all places, and the resulting dependencies.
 class PlaceRows {
  public:
   PlaceRows(const World& world, const Plan& plan, const ActionDependencyGraph& order)
@@ -53,7 +54,7 @@ class PlaceRows {
       for (std::size_t i = 0; i < row.size(); ++i) position_[row[i]] = static_cast<int>(i);
   }
 
-  // The action that must be completed before this action can enter its place; kNoAction if there is
+  // The action that must be completed before `action` may enter its place; kNoAction if there is
   // none.
   ActionIndex after(ActionIndex action) const {
     const int visit = number_[action];
@@ -62,8 +63,10 @@ class PlaceRows {
     return before.agent == visits_[visit].agent ? kNoAction : before.leaves;
   }
 
-  // The places that both robots pass consecutively, in the same or in opposite directions, around
-  // the place that `entering` enters. Returns pairs of visits; the first is the one of `other`.
+  // Returns the visits to the places around the one that `entering` enters, which the robot of
+  // `entering` and `other` pass consecutively, in the same or in opposite directions. Each pair
+  // consists of the visit of `other` and that of the robot itself to one place; only places that
+  // `other` passes first are included.
   std::vector<std::pair<int, int>> group(ActionIndex entering, AgentIndex other) const {
     const int mine = number_[entering];
     const auto& row = rows_[place_[mine]];
@@ -84,8 +87,8 @@ class PlaceRows {
 
   const Visit& visit(int number) const { return visits_[number]; }
 
-  // Moves `visit` behind `other` in the row of their place. To undo, call move() with the earlier
-  // position.
+  // Moves `visit` directly behind `other` in the row of their place. To undo this, call move() with
+  // the earlier position.
   void move_behind(int visit, int other) { move(visit, position_[other]); }
   int position(int visit) const { return position_[visit]; }
   void move(int visit, int to) {
@@ -128,9 +131,8 @@ class PlaceRows {
   }
 
   const ActionDependencyGraph& order_;
-  std::vector<std::pair<int, int>>
-      by_agent_;             // first and end of the agent's visits, in order of time
-  std::vector<int> number_;  // by action: the visit that it begins
+  std::vector<std::pair<int, int>> by_agent_;  // range of the agent's visits, in order of time
+  std::vector<int> number_;                    // by action: the visit that it begins; -1: none
   std::vector<Visit> visits_;
   std::vector<Place> place_;            // by visit
   std::vector<int> position_;           // by visit: position in its row
@@ -171,7 +173,8 @@ class Switching {
   }
 
  private:
-  // A robot's wait for another one.
+  // A robot's wait: the action that waits, the time between attempts, and the time of the next
+  // attempt.
   struct Wait {
     ActionIndex action = kNoAction;
     Time patience = 0;
@@ -182,7 +185,8 @@ class Switching {
   bool is_begun(ActionIndex a) const { return result_.trace.begin[a] <= now_; }
   bool is_in_ring(ActionIndex a) const { return order_.step(step_of_[a]).size() > 1; }
 
-  // The action that `a` waits for; kNoAction if there is none, or if it belongs to the same ring.
+  // The action for which `a` waits on its place; kNoAction if there is none, or if it belongs to
+  // the same ring.
   ActionIndex after(ActionIndex a) const {
     const ActionIndex other = rows_.after(a);
     return other != kNoAction && step_of_[other] == step_of_[a] ? kNoAction : other;
@@ -218,7 +222,7 @@ class Switching {
     if (end < kNever) event_times_.push(end);
   }
 
-  // Tries a switch if the robot has waited too long for another one.
+  // Attempts a switch if the robot has waited long enough for another one.
   void consider(AgentIndex agent) {
     const ActionIndex a = next_[agent];
     if (a == order_.end_of(agent) || is_begun(a) || is_in_ring(a)) return;
@@ -232,7 +236,7 @@ class Switching {
     }
     if (now_ < wait.until) return;
     if (try_switch(a, order_.actions()[other].agent)) {
-      event_times_.push(now_);  // the action may begin at once
+      event_times_.push(now_);  // because the action may now begin
       wait = {};
       return;
     }
@@ -242,13 +246,13 @@ class Switching {
     event_times_.push(wait.until);
   }
 
-  // The robot that this action waits for; the robot itself if the action has begun.
+  // The robot for which this action waits; the action's own robot if the action has begun.
   AgentIndex waits_for(ActionIndex action) const {
     for (const ActionIndex a : order_.step(step_of_[action])) {
       const AgentIndex agent = order_.actions()[a].agent;
       const ActionIndex other = after(a);
       if (other != kNoAction && !is_done(other)) return order_.actions()[other].agent;
-      if (next_[agent] != a) return agent;  // in a ring: it has not arrived yet
+      if (next_[agent] != a) return agent;  // has not reached the ring yet
     }
     return order_.actions()[action].agent;
   }
@@ -284,7 +288,7 @@ class Switching {
     return false;
   }
 
-  // The expected end of an action that begins, or has begun, at `begin`.
+  // The expected completion time of an action that begins, or has begun, at `begin`.
   Time expected_end(ActionIndex a, Time begin) const {
     const Time end = begin + order_.actions()[a].steps;
     return end > now_ || !is_begun(a) ? end : now_ + std::max(1, now_ - end);
@@ -359,12 +363,12 @@ class Switching {
   Time now_ = 0;
   SwitchableTrace result_;
 
-  // Scratch of expected().
+  // Workspace of expected().
   std::vector<Time> ends_;          // by step
   std::vector<std::int32_t> left_;  // by step: number of incomplete actions that it waits for
   std::vector<ActionIndex>
-      followers_;  // by action: head of the list of actions that wait for it on a place
-  std::vector<ActionIndex> waiting_;  // by action: next one in that list
+      followers_;  // by action: head of the list of actions that wait for its place
+  std::vector<ActionIndex> waiting_;  // by action: next action in such a list
   std::vector<std::int32_t> queue_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Execution with a switchable action dependency graph (Berndt, van Duijkeren, Palmieri, Kleiner and
-// Keviczky, 2024): robots change their passing order if a late robot delays others.
+// Simulates an execution with a switchable action dependency graph (Berndt, van Duijkeren,
+// Palmieri, Kleiner and Keviczky, 2024), in which robots change their passing order if a late robot
+// delays others.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +13,20 @@ namespace grove::detail {
 
 struct SwitchableTrace {
   ExecutionTrace trace;
-  std::int64_t switches = 0;  // places at which the passing order of two robots was changed
-  std::vector<BlockedRobot> blocked_robots;  // at the end: robots that wait, and for whom
+  std::int64_t switches = 0;                 // number of changes of two robots' order on a place
+  std::vector<BlockedRobot> blocked_robots;  // robots that did not complete their actions
 };
 
-// As simulate(), but robots may switch their order. A robot that has waited for another one for
-// `patience` >= 1 steps tries to pass first, on the next common place and on all places that both
-// robots pass consecutively around it. If this fails, it waits twice as long before the next
-// attempt. It passes first if this reduces the expected sum of finish times. The expectation
-// assumes that actions take as long as in the plan, and that an action that is overdue by d steps
-// takes d more steps. The robots never wait in a cycle and never collide: switching.cpp. `order`
-// must be the graph of `plan`. O(actions log actions), plus O(actions) for each switch that is
-// considered.
+// Simulates the execution as trace() does, but robots can change their order. A robot that has
+// waited for another robot for `patience` >= 1 steps attempts to pass first, on the place for which
+// it waits and on all places around it that both robots pass consecutively. The attempt succeeds if
+// the other robot has not begun to enter any of these places, the robot itself does not rest on any
+// of them, no robots would wait in a cycle, and the expected sum of finish times decreases. After a
+// failure the robot waits twice as long before the next attempt. The expectation assumes that
+// actions take as long as in the plan, and that an action that is overdue by d steps takes max(d,
+// 1) more steps. Robots never wait in a cycle and never collide; proof: switching.cpp. `order` must
+// be the action dependency graph of `plan`. O(actions log actions), plus O(actions) for each
+// attempt.
 SwitchableTrace simulate_switchable(const World& world, const Plan& plan,
                                     const ActionDependencyGraph& order, const Duration& duration,
                                     Time patience = 5);

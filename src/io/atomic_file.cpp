@@ -24,10 +24,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kTemporary = ".grove-";
-constexpr auto kMaxPause = std::chrono::hours(1);  // between two writes to a temporary file
+constexpr auto kMaxPause = std::chrono::hours(1);  // between two writes to a file
 
-// The path to write to: `path` with symbolic links resolved. Throws InputError if writing would
-// fail.
+// Returns the path of the file to write, which is `path` with symbolic links resolved. Throws
+// InputError if the file could not be written.
 fs::path resolved(const fs::path& path, fs::file_status& status) {
   std::error_code error;
   status = fs::status(path, error);
@@ -43,20 +43,21 @@ fs::path resolved(const fs::path& path, fs::file_status& status) {
 
 // --- temporary files ---
 
-// Names end with the host name, because a lock of another host may be invisible here.
+// Names of temporary files end with the host name, because locks from other hosts may not be
+// visible on this one.
 std::string name_end() {
   return fmt::format("@{}.tmp", host_name());
 }
 
-// Process ids are reused after a crash and in containers, so the name contains the time as well.
+// The name contains the time, because process ids are reused after a crash and in containers.
 fs::path unused_name(const fs::path& folder) {
   static std::atomic<unsigned> count{0};
   const auto now = std::chrono::system_clock::now().time_since_epoch().count();
   return folder / fmt::format("{}{}-{}-{}{}", kTemporary, ::getpid(), now, count++, name_end());
 }
 
-// True if the process that made the temporary file was killed: its lock is free. For a file of
-// another host it must also be older than kMaxPause.
+// True if the process that created the temporary file was killed, which is so if the file is not
+// locked. A file from another host must also be older than kMaxPause.
 bool is_abandoned(const fs::path& path, int fd) {
   std::error_code error;
   const auto age = fs::file_time_type::clock::now() - fs::last_write_time(path, error);
@@ -64,8 +65,9 @@ bool is_abandoned(const fs::path& path, int fd) {
   return (is_ours || (!error && age > kMaxPause)) && lock(fd) == LockResult::kLocked;
 }
 
-// Removes the temporary files of killed processes in the folder. A process that has created a file
-// and not yet locked it may lose it. It detects this and creates another one.
+// Removes temporary files that killed processes have left in the folder. This can remove a file
+// that another process has created but not locked yet. That process detects this and creates a new
+// file.
 void clear_abandoned(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
@@ -77,7 +79,7 @@ void clear_abandoned(const fs::path& folder) {
   }
 }
 
-// Only once per folder, because it takes a while in large folders.
+// Clears each folder only once per process, because this takes time in large folders.
 void clear_abandoned_once(const fs::path& folder) {
   static std::mutex mutex;
   static std::set<fs::path> cleared;
@@ -85,8 +87,8 @@ void clear_abandoned_once(const fs::path& folder) {
   if (cleared.insert(folder).second) clear_abandoned(folder);
 }
 
-// Creates an empty file that is locked while it is open. Returns nullopt if another process has
-// removed it as abandoned.
+// Creates an empty file, which is locked while it is open. Returns nullopt if another process has
+// removed the file as abandoned.
 std::optional<FileDescriptor> make_locked(const fs::path& path) {
   FileDescriptor file(path, O_WRONLY | O_CREAT | O_EXCL);
   if (!file.is_open()) return file;
@@ -96,7 +98,7 @@ std::optional<FileDescriptor> make_locked(const fs::path& path) {
   return is_locked && is_there ? std::optional(std::move(file)) : std::nullopt;
 }
 
-// After a system crash both names must lead to a complete file.
+// Flushes a folder to disk, so that a renamed file keeps its new name after a system crash.
 void flush_directory(const fs::path& directory) {
   const FileDescriptor handle(directory.empty() ? "." : directory, O_RDONLY | O_DIRECTORY);
   if (handle.is_open()) (void)::fsync(handle.get());
@@ -108,7 +110,7 @@ AtomicFile::AtomicFile(const fs::path& path) : name_(path) {
   fs::file_status status;
   target_ = resolved(path, status);
   if (is_special_file(path, status)) {
-    // Appends, because the target of a shell's redirection may already contain other output.
+    // Appends, because the target of a shell redirection may already contain other output.
     file_.emplace(path, O_WRONLY | O_APPEND | O_NOCTTY);
   } else {
     clear_abandoned_once(target_.parent_path());

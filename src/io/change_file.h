@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads files of new tasks for plans in execution.
+// Reads files with new tasks for a plan in execution.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +12,12 @@ namespace grove::detail {
 
 struct ReadTask {
   NewTask task;
-  std::string place;  // position in the file: "/tasks/2", or "" for the only task of the file
+  std::string place;  // JSON Pointer, such as "/tasks/2"; "" if the file is a single task
 };
 
-// Reads {"tasks": [...]}, each task as in an instance, or a single task: {"id": "t9", "cell": [3,
-// 4], "agents": ["a0"]}. Throws InputError for unknown keys, and for a task that is impossible in
-// `instance` whatever its agents are.
+// Reads {"tasks": [...]}, where each task has the keys of a task of an instance file, or a single
+// task such as {"id": "t9", "cell": [3, 4], "agents": ["a0"]}. Throws InputError for invalid files,
+// for unknown keys, and for a task that is invalid in `instance` regardless of its agents.
 std::vector<ReadTask> read_new_tasks(const std::filesystem::path& path, const Instance& instance);
 
 }  // namespace grove::detail

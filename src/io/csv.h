@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Cells of CSV files (RFC 4180, except that lines end in LF).
+// Formats fields of CSV files (RFC 4180, except that lines end with LF).
 #pragma once
 
 #include <string>
 
 namespace grove::detail {
 
-// `text` as a cell, quoted if necessary. An apostrophe is added in front of a text that a
-// spreadsheet would interpret as a formula (OWASP, CSV injection): one that is not a number and
-// begins with =, +, -, @, a tab or a CR. A text that begins with apostrophes and one of these
-// characters also gets one more, so that a reader removes exactly one.
+// Returns `text` as a CSV field, quoted if necessary. Puts an apostrophe in front of a text that a
+// spreadsheet would interpret as a formula (OWASP, CSV injection), which is one that is not a
+// number and begins with =, +, -, @, a tab or a CR. Also puts one in front of a text that begins
+// with apostrophes followed by one of these characters, so that a reader can always undo this by
+// removing exactly one apostrophe.
 std::string csv_cell(const std::string& text);
 
 }  // namespace grove::detail

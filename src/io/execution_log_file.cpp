@@ -18,7 +18,7 @@
 namespace grove::detail {
 namespace {
 
-// The web page that displays executions has the same limits: tools/view/drive/log.ts.
+// The web page that displays executions has the same limits (tools/view/drive/log.ts).
 constexpr const char* kDriveFormat = "grove drive 1";
 constexpr double kFarthest = 1e7;    // cells or metres
 constexpr double kMaxSeconds = 1e9;  // seconds
@@ -123,7 +123,7 @@ class DriveReader {
   const std::string file_;
   const ActionDependencyGraph& order_;
   std::unordered_map<std::string, AgentIndex> agents_;
-  std::unordered_set<std::string> named_;  // robots that the first line names
+  std::unordered_set<std::string> named_;  // ids of the robots in the first line
   ExecutionLog log_;
   std::string place_;
   std::size_t lines_ = 0;

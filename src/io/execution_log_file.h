@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads logs of executions (docs/drive-log.md).
+// Reads execution logs (docs/drive-log.md).
 #pragma once
 
 #include <array>
@@ -15,12 +15,12 @@ namespace grove::detail {
 
 inline constexpr std::array kDriveStates{"waiting", "moving", "working", "lifted", "lost", "done"};
 
-// The observed position of a robot at one time.
+// The observed pose and state of a robot at one time.
 struct PoseSample {
   double seconds = 0;
-  double x = 0;  // cells, y down; or metres of a roadmap, y up
+  double x = 0;  // on a grid in cells, with y downwards; on a roadmap in metres, with y upwards
   double y = 0;
-  double angle = 0;  // degrees clockwise from north; NaN: unknown
+  double angle = 0;  // heading in degrees clockwise from north; NaN: unknown
   std::int32_t completed = 0;
   std::uint8_t state = 0;  // index in kDriveStates
 };
@@ -28,11 +28,11 @@ struct PoseSample {
 struct ExecutionLog {
   std::string order;  // name of the file of the action dependency graph
   double seconds_per_step = 1;
-  std::vector<std::vector<PoseSample>> robots;  // by agent, in order of time
+  std::vector<std::vector<PoseSample>> robots;  // by AgentIndex: samples in order of time
 };
 
-// Reads the complete lines of the log of an execution of `order`. An incomplete last line is
-// ignored. Throws InputError.
+// Reads the log of an execution of `order`. Ignores an incomplete last line. Throws InputError for
+// any other invalid content.
 ExecutionLog read_drive_file(const std::filesystem::path& path, const Instance& instance,
                              const ActionDependencyGraph& order);
 

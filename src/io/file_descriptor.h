@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// POSIX file descriptors, for operations that streams do not support.
+// POSIX file descriptors and locks, for operations that C++ streams do not support.
 #pragma once
 
 #include <fcntl.h>
@@ -13,13 +13,13 @@
 
 namespace grove::detail {
 
-// An open file. The destructor closes it.
+// Owns a file descriptor, which the destructor closes.
 class FileDescriptor {
  public:
   // Takes ownership of an open descriptor, or of -1.
   explicit FileDescriptor(int fd) : fd_(fd) {}
-  // `flags` as in open(2). A new file has permissions 0666 minus the umask. If the file cannot be
-  // opened, is_open() is false and errno states the reason.
+  // Opens `path`. `flags` as for open(2). A new file has permissions 0666 without the bits of the
+  // umask. If the file cannot be opened, is_open() is false and errno is set.
   FileDescriptor(const std::filesystem::path& path, int flags)
       : FileDescriptor(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
   ~FileDescriptor() {
@@ -33,8 +33,9 @@ class FileDescriptor {
 
   bool is_open() const { return fd_ >= 0; }
   int get() const { return fd_; }
-  // Some file systems report errors only in close(2). This function closes a duplicate, so that the
-  // file stays locked.
+  // Closes a duplicate of the descriptor, and returns true if this reports no error. Some file
+  // systems report write errors only in close(2). The descriptor itself remains open, and the file
+  // locked.
   bool reports_no_error() const {
     const int copy = ::fcntl(fd_, F_DUPFD_CLOEXEC, 0);
     return copy >= 0 && ::close(copy) == 0;
@@ -47,21 +48,21 @@ class FileDescriptor {
 // The host name of this machine.
 std::string host_name();
 
-// Writes all of `content`. Returns false and sets errno on failure.
+// Writes `content` completely. Returns false and sets errno on failure.
 bool write_all(int fd, std::string_view content);
 
 enum class LockResult : std::uint8_t {
   kLocked,
-  kHeld,         // by another open file, on this or another host
-  kUnsupported,  // by this file system; errno is set
+  kHeld,         // another open file holds the lock, on this or another host
+  kUnsupported,  // the file system does not support locks; errno is set
 };
 
-// Locks the file, which must be open for writing, against all other processes that use lock(), on
-// all hosts that share it (as far as the file system supports this). The kernel releases the lock
-// when the last descriptor of this open file is closed, however the process ends. (Uses the open
-// file description locks of fcntl(2). On some file systems, locks of flock(2) are not visible on
-// other hosts. Traditional fcntl locks are released as soon as the process closes any descriptor of
-// the file.)
+// Locks the file, which must be open for writing, against all other callers of lock(), on all hosts
+// that share the file (as far as the file system supports this). Does not wait. The kernel releases
+// the lock when the last descriptor of this open file is closed, even if the process is killed.
+// (Uses the open file description locks of fcntl(2), because on some file systems locks of flock(2)
+// are not visible on other hosts, and traditional locks of fcntl(2) are released as soon as the
+// process closes any descriptor of the file.)
 LockResult lock(int fd);
 
 }  // namespace grove::detail

@@ -34,8 +34,8 @@ std::string holder(const FileDescriptor& file) {
   return size > 0 ? std::string(text, static_cast<std::size_t>(size)) : "it has just started";
 }
 
-// Does not follow links. In a folder where other users may write, a link could lead to any file of
-// the user.
+// Does not follow links, because in a folder where other users may write, a link could lead to any
+// file of this user.
 FileDescriptor open_lock_file(const fs::path& path) {
   FileDescriptor file(path, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK);
   if (!file.is_open() && errno != ELOOP) return file;
@@ -50,7 +50,7 @@ bool write_holder(const FileDescriptor& file) {
   return ::ftruncate(file.get(), 0) == 0 && write_all(file.get(), description_of_this_process());
 }
 
-// For example ".grove-plan.json.lock" for "plan.json".
+// Returns the path of the lock file, for example ".grove-plan.json.lock" for "plan.json".
 fs::path lock_file_of(const fs::path& output) {
   constexpr std::size_t kMaxNameLength = 200;  // file systems allow 255 bytes
   std::string name = output.filename().string();
@@ -91,8 +91,8 @@ OutputLock::OutputLock(const fs::path& output) : file_(-1) {
           fmt::format(
               "is being written by another run ({}); expected another name, or the end of that run",
               holder(file_)));
-  } while (!is_still_there(file_, path_));  // or another run has just ended, and removed it
-  (void)write_holder(file_);                // for messages only
+  } while (!is_still_there(file_, path_));  // else another run has just removed it
+  (void)write_holder(file_);                // a failure is ignored: the holder is only for messages
 }
 
 OutputLock::~OutputLock() {

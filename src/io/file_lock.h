@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Locks of folders and output files, so that only one run at a time writes to them.
+// Locks on folders and output files, so that only one run at a time writes to them.
 #pragma once
 
 #include <filesystem>
@@ -8,16 +8,16 @@
 
 namespace grove::detail {
 
-// Holds the lock of the file at `path` until this object is destroyed or the process ends, for
-// whatever reason. The file stays; the lock does not. The file names the holder. The lock is valid
-// on all hosts that share the file system. One thread at a time.
+// Holds a lock on the file at `path` until this object is destroyed or the process ends, for
+// whatever reason. Creates the file if necessary, writes the holder into it, and does not remove
+// it. The lock is effective on all hosts that share the file system. One thread at a time.
 class FileLock {
  public:
-  // Throws InputError if another process holds the lock (the message names it), if the file cannot
-  // be written, or if it is a link, because writing through it could change any other file.
+  // Throws InputError if another process holds the lock (the message names the process), if the
+  // file cannot be written, or if it is a link, because a link could lead to any other file.
   explicit FileLock(const std::filesystem::path& path);
 
-  // False if the file system does not support locks. Then other processes are not excluded.
+  // False if the file system does not support locks. In this case other processes are not excluded.
   bool is_held() const { return held_; }
 
  private:
@@ -25,13 +25,14 @@ class FileLock {
   bool held_ = true;
 };
 
-// While this object exists, other runs cannot write the file `output`. It locks the file
-// .grove-NAME.lock in the same folder, and removes that file in the end. (The lock file of a killed
-// run is not locked, and is reused.) Does not lock special files such as /dev/null, and files in a
-// folder that is not writable, because writing them will fail anyway. One thread at a time.
+// Prevents other runs from writing the file `output` while this object exists. Locks the file
+// .grove-NAME.lock in the same folder, and removes it in the destructor. (If a run is killed, its
+// lock file remains without a lock, and the next run reuses it.) Does not lock special files such
+// as /dev/null. Also does not lock a file in a folder that is not writable, because writing that
+// file will fail anyway. One thread at a time.
 class OutputLock {
  public:
-  // Throws InputError if another run writes this file; the message names the run.
+  // Throws InputError if another run holds the lock; the message names that run.
   explicit OutputLock(const std::filesystem::path& output);
   ~OutputLock();
   OutputLock(OutputLock&&) = default;
@@ -39,7 +40,7 @@ class OutputLock {
 
  private:
   std::filesystem::path path_;
-  FileDescriptor file_;  // not open: no lock
+  FileDescriptor file_;  // is_open() is false: not locked
 };
 
 }  // namespace grove::detail

@@ -19,7 +19,7 @@ std::string task_field(TaskIndex task) {
   return fmt::format("tasks/{}", task);
 }
 
-// The tasks in the order of their first appearance, agent by agent.
+// Returns the tasks in the order of their first appearance in the agents' lists, agent by agent.
 std::vector<TaskIndex> order_of_appearance(const Instance& instance) {
   std::vector<TaskIndex> order;
   std::vector<bool> seen(instance.task_count());
@@ -33,7 +33,8 @@ std::vector<TaskIndex> order_of_appearance(const Instance& instance) {
   return order;
 }
 
-// A copy of `instance` with agent ids agent_id(i) and task ids task_id(i).
+// Returns a builder with the map, rules and agents of `instance`, where agent i has the id
+// agent_id(i). A task execution in progress names its task t as task_id(t).
 template <typename AgentId, typename TaskId>
 InstanceBuilder with_agents(const Instance& instance, AgentId agent_id, TaskId task_id) {
   InstanceBuilder builder = InstanceBuilder::like(instance);

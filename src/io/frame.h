@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Coordinates of places in the world frame of the robots.
+// Converts places to coordinates in the world frame of the robots.
 #pragma once
 
 #include <variant>
@@ -8,14 +8,15 @@
 
 namespace grove::detail {
 
-// Position of a grid in the world: metres, x to the right and y up, as in ROS and VDA 5050.
+// Position of a grid in the world frame, which has coordinates in metres, x to the right and y up,
+// as in ROS and VDA 5050.
 struct Frame {
   double cell_size = 1;  // metres; > 0
-  Point origin;          // lower left corner of the whole map
+  Point origin;          // lower left corner of the map
 };
 
-// The centre of a place, in metres. `frame` applies to grids only; a roadmap has its own
-// coordinates.
+// The centre of `place` in the world frame, in metres. `frame` is used for grids only; a roadmap
+// has coordinates of its own.
 inline Point metres(const Map& map, const Frame& frame, Place place) {
   if (const auto* roadmap = std::get_if<Roadmap>(&map)) return roadmap->at(place);
   const Grid& grid = std::get<Grid>(map);

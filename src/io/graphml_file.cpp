@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The parser is pugixml. It does not use recursion, and it expands only the five entities of XML
-// itself; others remain as they are written. It does not validate everything, so this file rejects
-// what would be misread.
+// The parser is pugixml. It does not use recursion. It expands only the five predefined entities of
+// XML and leaves references to other entities unchanged. It does not validate all of XML, so this
+// file rejects content that would be misread.
 #include "io/graphml_file.h"
 
 #include <fmt/format.h>
@@ -52,7 +52,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-// The complete text of an element, also across comments and CDATA sections.
+// Returns the complete text of an element, including text after comments and in CDATA sections.
 std::string text_of(xml_node element) {
   std::string text;
   for (const xml_node child : element.children())
@@ -87,7 +87,7 @@ class XmlFile {
   xml_node root() const { return document_.document_element(); }
 
   std::string place(xml_node element) const {
-    const std::ptrdiff_t offset = element.offset_debug();  // of the name, after its <
+    const std::ptrdiff_t offset = element.offset_debug();  // offset of the name, after <
     return offset > 0 ? lines_.place(static_cast<std::size_t>(offset) - 1) : "";
   }
   [[noreturn]] void fail(xml_node element, std::string_view message) const {
@@ -108,9 +108,9 @@ class XmlFile {
   pugi::xml_document document_;
 };
 
-// A declaration by a <key> element.
+// A declaration of data by a <key> element.
 struct Key {
-  std::string name;  // in lower case; empty: a key of yEd for drawings
+  std::string name;  // attr.name in lower case; empty: a yEd key for drawings
   std::string element;
   std::optional<std::string> preset;  // <default>
   xml_node at;
@@ -191,14 +191,15 @@ class GraphmlReader {
     return text == "directed";
   }
 
-  // The name of the content of a <data> element. Files written by hand may omit the <key> elements.
+  // The name of the data in a <data> element. If there is no <key> element for it, as in files
+  // written by hand, the name is the id of the key.
   std::string name_of(xml_node data) const {
     const std::string id = attribute(data, "key");
     const auto key = keys_.find(id);
     return key == keys_.end() ? lower(id) : key->second.name;
   }
 
-  // The data of an element whose names are in `known`, including defaults.
+  // The data of an element by name, for the names in `known`, including defaults.
   Data data_of(xml_node element, std::span<const std::string_view> known) {
     Data data;
     for (const xml_node child : element.children()) {
@@ -225,7 +226,7 @@ class GraphmlReader {
     return *value;
   }
 
-  // The first of `names` that is present.
+  // The value of the first of `names` that is present. Returns nullopt if none is.
   std::optional<double> positive_number(const Data& data, std::span<const std::string_view> names,
                                         std::string_view unit) const {
     for (const std::string_view name : names) {
@@ -249,7 +250,7 @@ class GraphmlReader {
     return id;
   }
 
-  // yEd stores the corner and size of a drawing, without x and y of its own.
+  // The centre of a node's drawing by yEd, which stores the corner and the size.
   std::optional<Point> middle_of_drawing(xml_node node) const {
     for (const xml_node data : node.children("data"))
       for (const xml_node shape : data.children())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The exception for invalid input.
+// InputError, the exception for invalid input and for files that cannot be read or written.
 #pragma once
 
 #include <cerrno>
@@ -10,15 +10,17 @@
 
 namespace grove::detail {
 
-// A file that cannot be used: it is unreadable, malformed, or contradicts another file. what() is
+// Thrown if a file cannot be read or written, is malformed, or contradicts another file. what() is
 // one line for the user: "FILE: PLACE: what is wrong and what was expected". PLACE is a line and
-// column ("line 7, column 12") or a JSON Pointer ("/agents/3/start"); empty for the whole file.
+// column ("line 7, column 12") or a JSON Pointer ("/agents/3/start"); it is omitted if the message
+// is about the whole file.
 class InputError : public std::runtime_error {
  public:
   InputError(std::string_view file, std::string_view place, std::string_view message);
 };
 
-// A file of Grove of another kind than expected: "found a plan; expected an instance".
+// Thrown if a Grove file is of a different kind from the one expected: "found a plan; expected an
+// instance".
 class WrongFileKind : public InputError {
  public:
   WrongFileKind(std::string_view file, std::string_view found, std::string_view expected);
@@ -28,12 +30,13 @@ class WrongFileKind : public InputError {
   std::string found_;
 };
 
-// Throws InputError: the system cannot read or write the file; `error` is a value of errno.
+// Throw InputError with the system's message for `error`, a value of errno, because the file could
+// not be read or written.
 [[noreturn]] void fail_to_read(const std::filesystem::path& path, int error = errno);
 [[noreturn]] void fail_to_write(const std::filesystem::path& path, int error = errno);
 
-// `text` as one printable line, for messages that quote files. Control characters and invalid UTF-8
-// are written as \n, \t, \x1b, ... The line is cut after some hundred bytes.
+// Returns `text` as one printable line, for messages that quote files. Control characters and
+// invalid UTF-8 are escaped as \n, \t, \x1b, ... Long text is cut after some hundred bytes.
 std::string one_line(std::string_view text);
 
 }  // namespace grove::detail

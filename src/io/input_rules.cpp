@@ -42,7 +42,8 @@ fs::path file_in_folder(const InputRules& rules, const fs::path& folder, const f
   if (name.is_absolute()) refuse("is an absolute path");
   std::error_code error;
   const fs::path base = fs::canonical(folder.empty() ? "." : folder, error);
-  // A missing file is checked by its name. The reader reports later that it is missing.
+  // weakly_canonical() also accepts a file that does not exist. The reader reports later that it is
+  // missing.
   const fs::path real = error ? fs::path() : fs::weakly_canonical(base / name, error);
   if (error || !is_below(base, real)) refuse("leads outside the folder of this file");
   return real;

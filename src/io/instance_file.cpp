@@ -25,7 +25,8 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-// Calls `add`. Converts an InstanceError to an InputError with its position in the file.
+// Calls add(). Converts an InstanceError to an InputError with its position below `value` in the
+// file.
 template <typename Add>
 void at_place_of(const JsonValue& value, Add add) {
   try {
@@ -35,8 +36,8 @@ void at_place_of(const JsonValue& value, Add add) {
   }
 }
 
-// Reads "motion" and the keys that belong to it. The plan must respect each of these keys, so a key
-// without effect is an error.
+// Reads "motion" and the keys that depend on it. A key that has no effect for this motion is an
+// error, because a user who writes it expects an effect on the plan.
 Motion read_motion(const InstanceBuilder& builder, const JsonValue& agent) {
   const auto motion = agent.find("motion");
   if (!motion) {
@@ -53,7 +54,7 @@ Motion read_motion(const InstanceBuilder& builder, const JsonValue& agent) {
   return {steps ? static_cast<Time>(steps->integer(1, InstanceBuilder::kMaxDuration)) : 1};
 }
 
-// Reads a start that may be on a road or within a turn.
+// Reads a start, which may be on a road or within a turn.
 Pose read_start_pose(const InstanceBuilder& builder, Motion motion, const JsonValue& agent) {
   const JsonValue start = agent.member("start");
   if (builder.roadmap()) return {.place = read_start(*builder.roadmap(), start)};
@@ -144,7 +145,7 @@ Instance read_robots(InstanceBuilder builder, const JsonValue& root, const std::
   return *std::move(instance);
 }
 
-// The path of a file that an instance names, relative to the instance.
+// Returns the path of a file that an instance names relative to its own folder.
 std::filesystem::path file_named_by(const JsonValue& value, const std::filesystem::path& folder,
                                     std::string_view what, const InputRules& rules) {
   if (value.text().empty()) value.fail_expected(fmt::format("the name of {} file", what));
@@ -162,15 +163,17 @@ std::filesystem::path file_named_by(const JsonValue& value, const std::filesyste
   return path;
 }
 
-// The first character that is not blank; NUL if there is none. It distinguishes maps from roadmaps.
+// Returns the first character of the file that is not blank; NUL if there is none. It distinguishes
+// maps from roadmaps.
 char first_character(const std::filesystem::path& path) {
   char first = 0;
   std::ifstream(path) >> first;
   return first;
 }
 
-// Throws if "map" names a roadmap or "roadmap" a map. `path` is a result of file_named_by(): a
-// regular file that the instance may name. The message does not quote the file.
+// Throws InputError if "map" names a roadmap, or "roadmap" names a map. `path` must be a result of
+// file_named_by(), which checks that the instance may name this file. The message does not quote
+// the file.
 void require_map_not_roadmap(const JsonValue& value, const std::filesystem::path& path,
                              bool is_roadmap) {
   const bool is_json = first_character(path) == '{';
@@ -195,7 +198,7 @@ void add_row(InstanceBuilder& builder, const std::string& file, const ScenarioRo
   }
 }
 
-// The scenario row of agent `i`, and the number of steps from its start to its destination.
+// Returns the scenario row of agent `i`, and the distance from its start to its destination.
 std::pair<ScenarioRow, Time> row_of(const Instance& instance, AgentIndex i,
                                     const std::string& map) {
   const Grid& grid = instance.grid();
@@ -216,7 +219,7 @@ std::pair<ScenarioRow, Time> row_of(const Instance& instance, AgentIndex i,
           length};
 }
 
-// A vertex is written as its id.
+// Returns the path entry of a start; a vertex is written as its id only.
 OrderedJson place_json(const Map& map, Motion motion, const Pose& pose) {
   OrderedJson json = pose_json(map, motion, pose);
   return json.size() == 1 ? OrderedJson(json[0]) : json;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parses with nlohmann's parser, and builds the document here. nlohmann's own document builder
-// accepts any depth, and of a repeated key it keeps one value without an error.
+// Uses the parser of nlohmann::json with a document builder of its own, because nlohmann's builder
+// accepts any depth of nesting, and accepts repeated keys without an error.
 #include "io/json_text.h"
 
 #include <fmt/format.h>
@@ -18,9 +18,9 @@ using Json = nlohmann::json;
 
 constexpr std::size_t kDeepest = 32;
 
-// The message "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while
-// parsing value - invalid literal; last read: 'x'; expected ..." without its beginning and end. The
-// position is reported separately, and "last read" may quote half the file.
+// Extracts the cause from a message such as "[json.exception.parse_error.101] parse error at line
+// 1, column 2: syntax error while parsing value - invalid literal; last read: 'x'; expected ...".
+// The position is reported separately, and "last read" can quote a large part of the file.
 std::string tidy(const nlohmann::detail::exception& error) {
   constexpr int kNumberOverflow = 406;
   if (error.id == kNumberOverflow) return "a number is too large; expected one of double precision";
@@ -37,7 +37,7 @@ std::string tidy(const nlohmann::detail::exception& error) {
   return message;
 }
 
-// A common mistake in JSON at the beginning of `rest`; empty: another error.
+// Returns a message if `rest` begins with a common mistake in JSON; otherwise "".
 std::string_view common_mistake(std::string_view rest) {
   struct Mistake {
     std::string_view beginning;
@@ -64,8 +64,8 @@ std::string_view common_mistake(std::string_view rest) {
   return {};
 }
 
-// The beginning of the token at which the parser failed. The parser has already read its first
-// letters: "Na" of NaN, "//" of a comment.
+// Returns the offset of the token at which the parser failed. `offset` can be inside this token,
+// because the parser has read its first characters, such as "Na" of NaN or "//" of a comment.
 std::size_t begin_of_token(std::string_view text, std::size_t offset) {
   constexpr std::string_view kBetween = " \t\r\n,:[]{}\"";
   offset = std::min(offset, text.size());
@@ -73,14 +73,14 @@ std::size_t begin_of_token(std::string_view text, std::size_t offset) {
   return offset;
 }
 
-// True if the character at `offset` is the bracket after a trailing comma, as in "[1, 2, ]".
+// True if the character at `offset` is a closing bracket that follows a comma, as in "[1, 2, ]".
 bool is_behind_last_comma(std::string_view text, std::size_t offset) {
   if (offset >= text.size() || (text[offset] != '}' && text[offset] != ']')) return false;
   const std::size_t before = text.substr(0, offset).find_last_not_of(" \t\r\n");
   return before != std::string_view::npos && text[before] == ',';
 }
 
-// Builds the document from the events of the parser.
+// Builds the document from parser events, and checks depth and repeated keys.
 class DocumentBuilder : public nlohmann::json_sax<Json> {
  public:
   DocumentBuilder(std::string_view text, const std::string& file) : text_(text), file_(file) {}
@@ -123,10 +123,11 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   }
 
  private:
-  // An open array or object. Its elements do not move while one of them is open.
+  // An open array or object. No elements are added to it while one of its elements is open, so
+  // pointers to them remain valid.
   struct Level {
     Json* container;
-    std::string key;  // of the current member
+    std::string key;  // key of the current member
   };
 
   bool add(Json value) {
@@ -155,13 +156,13 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
     return &container.back();
   }
 
-  // The JSON Pointer of the container at the given depth; 0 is the document.
+  // The JSON Pointer of the open container at `depth`, where depth 0 is the document.
   std::string path(std::size_t depth) const {
     std::string result = depth == 0 ? "/" : "";
     for (std::size_t k = 0; k < depth; ++k) {
       const Level& level = levels_[k];
       const bool keyed = level.container->is_object();
-      const bool entered = k + 1 < levels_.size();  // if so, the element is already in the array
+      const bool entered = k + 1 < levels_.size();  // then the array already contains the element
       const std::size_t index = level.container->size() - (entered ? 1 : 0);
       result += "/" + (keyed ? level.key : std::to_string(index));
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// JSON as text: parsing and writing.
+// Parses and formats JSON text.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,12 +8,14 @@
 
 namespace grove::detail {
 
-// Parses `text`. Throws InputError, naming `file`, if it is not exactly one JSON value, if an
-// object repeats a key, or if it is nested deeper than any of Grove's formats requires.
+// Parses `text`. Throws InputError, with `file` as the name of the file, if it is not exactly one
+// JSON value, if an object repeats a key, or if it is nested more deeply than any Grove format
+// requires.
 nlohmann::json parse_json(std::string_view text, const std::string& file);
 
-// `document`, an object, as text with one member per line. An array or object directly below it has
-// one element per line. So people can read and compare it: one agent per line.
+// Returns `document`, which must be an object, as text with one member per line. If a member is an
+// array or object, each of its elements has a line of its own, such as one line per agent, so that
+// people and diff tools can compare files.
 std::string dump_by_lines(const nlohmann::ordered_json& document);
 
 }  // namespace grove::detail

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::string_view kSchema = "$schema";  // for editors
+constexpr std::string_view kSchema = "$schema";  // schema reference, which editors use
 
 std::string description(const Json& json) {
   if (json.is_array()) return "an array";
@@ -31,7 +31,8 @@ std::string_view kind_of(const Json& json) {
   return json.is_number() ? "a number" : "a string";
 }
 
-// The integer in `json`, if it is an integer from `min` to `max`. 3.0 is not an integer.
+// Returns the integer in `json`. Returns nullopt if it is not an integer from `min` to `max`.
+// 3.0 is not an integer.
 std::optional<std::int64_t> integer_within(const Json& json, std::int64_t min, std::int64_t max) {
   if (!json.is_number_integer()) return std::nullopt;
   constexpr std::uint64_t kLargest = std::numeric_limits<std::int64_t>::max();
@@ -129,8 +130,7 @@ JsonDocument::JsonDocument(const std::filesystem::path& path)
 
 JsonDocument::JsonDocument(std::string_view text, std::string name)
     : file_(std::move(name)), json_(parse_json(text, file_)) {
-  // (The message does not quote the content, because the user may not have meant to show this
-  // file.)
+  // The message does not quote the content, because the user may have named this file by mistake.
   if (!json_.is_object())
     root().fail(fmt::format("found {}; expected a JSON object", kind_of(json_)));
 }

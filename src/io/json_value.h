@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Strict reading of JSON: values that know their file and path, so that every error names both.
+// Strict reading of JSON: each value stores its file name and JSON Pointer, so that every error
+// message states both.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +17,8 @@
 
 namespace grove::detail {
 
-// A value of a JsonDocument, which must outlive it. Every getter throws InputError if the value
-// does not have the requested type.
+// A value in a JsonDocument, which must outlive the value. Every getter throws InputError if the
+// value does not have the requested type or range.
 class JsonValue {
  public:
   JsonValue(const nlohmann::json& json, const std::string& file, std::string path)
@@ -27,7 +28,7 @@ class JsonValue {
   const std::string& path() const { return path_; }
   const std::string& file() const { return *file_; }
 
-  // Members of an object: member() requires the key; find() returns nullopt if it is missing.
+  // Members of an object. member() throws InputError if the key is missing; find() returns nullopt.
   JsonValue member(const char* key) const;
   std::optional<JsonValue> find(const char* key) const;
 
@@ -40,7 +41,7 @@ class JsonValue {
   bool boolean() const;
   std::string text() const;
   std::vector<std::string> texts() const;
-  // position(): a cell [x, y] with x, y >= 0.
+  // position() reads a cell [x, y] with x, y >= 0, and coordinate() an integer >= 0.
   Position position() const;
   int coordinate() const;
 
@@ -55,15 +56,15 @@ class JsonValue {
 
   const nlohmann::json* json_;
   const std::string* file_;
-  std::string path_;  // "" for the whole document
+  std::string path_;  // JSON Pointer; "" for the whole document
 };
 
-// A parsed file. Throws InputError if it is not one JSON object of bounded depth, or if an object
-// repeats a key.
+// A parsed JSON file. The constructors throw InputError if the file cannot be read, is not one JSON
+// object, is nested too deeply, or contains an object that repeats a key.
 class JsonDocument {
  public:
   explicit JsonDocument(const std::filesystem::path& path);
-  // The same for a text. `name` stands for the file in messages.
+  // Parses the text of a file. `name` is the name of the file in messages.
   JsonDocument(std::string_view text, std::string name);
 
   JsonValue root() const { return {json_, file_, ""}; }
@@ -73,8 +74,8 @@ class JsonDocument {
   nlohmann::json json_;
 };
 
-// For files of other tools, which may contain data that Grove does not use: collects one warning
-// for each unknown key, however often it occurs. (For Grove's own files see known_keys.h.)
+// Adds one warning for each distinct unknown key, for files of other tools, which may contain data
+// that Grove does not use. (For Grove's own files see known_keys.h.)
 class UnknownKeys {
  public:
   UnknownKeys(std::string file, std::vector<std::string>* warnings)

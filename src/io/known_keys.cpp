@@ -22,7 +22,8 @@ struct Unmodelled {
   std::string_view what;
 };
 
-// Keys that users expect in such files but Grove does not model; also in docs/formats.md.
+// Keys that users may expect in Grove's files, for features that Grove does not model (see
+// docs/formats.md).
 constexpr std::array kUnmodelled{
     Unmodelled{"after", "an order among tasks"},
     Unmodelled{"before", "an order among tasks"},
@@ -130,7 +131,7 @@ const KnownObject& trace_keys() {
 
 // --- hints ---
 
-// Normalizes a key: "oneway" for "One-Way".
+// Normalizes a key: lower case, without '_', '-' and blanks, such as "oneway" for "One-Way".
 std::string folded(std::string_view key) {
   std::string text;
   for (const char c : key)
@@ -147,7 +148,7 @@ std::string singular(std::string_view key) {
 
 constexpr std::size_t kMinPrefixLength = 3;  // shorter prefixes are too ambiguous
 
-// True for a prefix of sufficient length, such as "dur" of "duration".
+// True if `key` is a prefix of `known` of sufficient length, such as "dur" of "duration".
 bool begins(const std::string& key, std::string_view known) {
   return key.size() >= kMinPrefixLength && folded(known).starts_with(key);
 }
@@ -160,7 +161,8 @@ std::string hint(const KnownKey& key) {
   return fmt::format("expected '{}'{}, if that is meant", key.name, key.meaning);
 }
 
-// The key that was probably meant. Keys that the object already has are excluded.
+// Returns the known key that the user probably meant, other than keys that the object already has;
+// nullptr if there is none.
 const KnownKey* key_meant(const JsonValue& object, const std::string& key,
                           const KnownObject& known) {
   std::vector<std::string> spelt;
@@ -193,7 +195,7 @@ const Unmodelled* nearly_unmodelled(const std::string& key) {
   return near ? unmodelled(std::string(*near)) : nullptr;
 }
 
-// The object of the same kind of file that has this key.
+// Returns the object in this kind of file that has the key; nullptr if there is none.
 const KnownObject* owner(const std::string& key, const KnownObject& file) {
   for (const KnownKey& each : file.keys)
     if (each.name == key) return &file;
@@ -215,7 +217,7 @@ std::string what_was_meant(const JsonValue& object, const std::string& key,
   };
   const KnownKey* meant = key_meant(object, key, known);
   if (const Unmodelled* found = unmodelled(key)) return not_modelled(*found);
-  if (meant && meant->name == key + "s") return hint(*meant);  // "task" instead of "tasks"
+  if (meant && meant->name == key + "s") return hint(*meant);  // "task" for "tasks"
   if (const KnownObject* found = owner(key, file))
     return fmt::format("this key belongs to {}; expected it there", found->name);
   if (meant) return hint(*meant);
@@ -239,8 +241,8 @@ void refuse_other_kind(const JsonValue& root, const KnownObject& known) {
     if (has_marks_of(root, *other)) throw WrongFileKind(root.file(), other->kind, known.kind);
 }
 
-// Rejects a file without any key of its kind or a similar one. The message does not quote its keys,
-// because the user may not have meant to show this file.
+// Rejects a file that has no key of its kind, nor a similar key. The message does not quote its
+// keys, because the user may have named this file by mistake.
 void refuse_unrelated(const JsonValue& root, const KnownObject& known) {
   if (known.kind.empty()) return;
   bool has_others = false;
@@ -314,7 +316,8 @@ const KnownObject& roadmap_keys() {
   return known;
 }
 
-// (The statistics of a plan are not checked: they are for people, and may differ between versions.)
+// The keys in a plan's "stats" are not checked, because they are for people and differ between
+// versions.
 const KnownObject& plan_keys() {
   static const KnownObject known{"the file",
                                  {{"status"},

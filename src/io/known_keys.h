@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The keys of Grove's own files: one declaration for each kind of object, and one function that
-// rejects every other key. It is worse to ignore a constraint than to reject a file.
+// rejects all other keys. Unknown keys are errors, because silently ignoring a constraint would be
+// worse than rejecting the file.
 #pragma once
 
 #include <string_view>
@@ -14,38 +15,39 @@ struct KnownObject;
 
 struct KnownKey {
   std::string_view name;
-  // The keys of the object in this key, or of each object in its list; nullptr: not checked.
+  // The keys of the object that is the value of this key, or of each object in a list; nullptr:
+  // these keys are not checked.
   const KnownObject* inside = nullptr;
-  // Synonyms, for hints.
+  // Keys that users write by mistake in place of this one, for hints.
   std::vector<std::string_view> aliases = {};
-  std::string_view meaning = {};  // appended to the name in a hint: " (true: ...)"
+  std::string_view meaning = {};  // appended to the name in a hint, such as " (true: ...)"
 };
 
 struct KnownObject {
-  std::string_view name;  // "an agent"
+  std::string_view name;  // for messages, such as "an agent"
   std::vector<KnownKey> keys;
-  // Only for a whole file: "an instance", and the keys that distinguish it from files of other
-  // kinds.
+  // Only for a whole file: the kind of file, such as "an instance", and the keys that distinguish
+  // it from files of other kinds.
   std::string_view kind = {};
   std::vector<std::string_view> marks = {};
 };
 
 const KnownObject& instance_keys();
-// The part of an instance that is read onto an existing map: agents and tasks.
+// The keys of the text that parse_instance_on() reads: agents and tasks.
 const KnownObject& robot_keys();
 const KnownObject& roadmap_keys();
 const KnownObject& plan_keys();
-// A file of new tasks: a list, or a single task.
+// The keys of a file with new tasks, which has a list of tasks or is a single task.
 const KnownObject& new_tasks_keys();
 const KnownObject& new_task_keys();
 const KnownObject& solver_keys();
 
-// Checks the keys of `value` and of the objects in it. Throws WrongFileKind if the file has the
-// distinguishing keys of another kind of file and lacks one of its own. Throws InputError, without
-// a quotation, if the file has no key of its kind. Throws InputError for the first unknown key. The
-// message names a similar key, or the object where the key belongs, or says that Grove does not
-// model it. "$schema" and keys that begin with '_' are for people and other programs, and are
-// ignored.
+// Checks the keys of `value` and of the objects in it. Throws WrongFileKind if the file lacks one
+// of its distinguishing keys but has those of another kind of file. Throws InputError, in a message
+// that does not quote the file, if the file has no key of its kind. Otherwise throws InputError for
+// the first unknown key; the message suggests a similar key, names the object to which the key
+// belongs, or states that Grove does not model the key. Ignores "$schema" and keys that begin with
+// '_', which are for people and other programs.
 void require_known_keys(const JsonValue& value, const KnownObject& known);
 
 }  // namespace grove::detail

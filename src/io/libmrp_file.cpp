@@ -18,7 +18,7 @@ namespace {
 
 // --- reading ---
 
-// A file of a few bytes in this format can request any number of cells.
+// Limit on the number of cells, which a file of a few bytes in this format can request.
 constexpr int kMaxCells = 1 << 24;
 
 Grid read_grid(const YamlValue& map, const std::string& file, const InputRules& rules) {
@@ -46,7 +46,7 @@ Grid read_grid(const YamlValue& map, const std::string& file, const InputRules& 
   return Grid(width, height, passable);
 }
 
-// The destination of `agent`, if it has one.
+// The destination of `agent`. Returns nullopt if it has none.
 std::optional<YamlValue> find_goal(const YamlValue& agent) {
   const auto goal = agent.find("goal");
   const auto choice = agent.find("potentialGoals");
@@ -61,7 +61,7 @@ std::optional<YamlValue> find_goal(const YamlValue& agent) {
   return choice->element(0);
 }
 
-// The position in `agent` of the key that an InstanceError refers to.
+// The value in `agent` to which the field of an InstanceError refers.
 YamlValue place_of(const YamlValue& agent, const std::optional<YamlValue>& goal,
                    const std::string& field) {
   if (field == "id") return agent.member("name");

@@ -20,11 +20,11 @@
 namespace grove::detail {
 namespace {
 
-constexpr int kPartsOfSpan = 64;    // of a curve, in its polyline
-constexpr int kHighestDegree = 16;  // sufficient for curves of vehicles
+constexpr int kPartsOfSpan = 64;    // number of segments per span of a curve, in its polyline
+constexpr int kHighestDegree = 16;  // maximum degree of a curve; vehicle paths need less
 
-// A non-uniform rational B-spline (NURBS). `knots` is non-decreasing and has degree + 1 more
-// entries than `points`. There are more points than the degree. The weights are positive.
+// A non-uniform rational B-spline (NURBS) with more than `degree` points. `knots` is non-decreasing
+// and has points + degree + 1 entries. The weights are positive.
 struct Nurbs {
   int degree = 1;
   std::vector<double> knots;
@@ -32,7 +32,8 @@ struct Nurbs {
   std::vector<double> weights;  // one per point
 };
 
-// De Boor's algorithm on (w x, w y, w), for t between the knots `span` and span + 1.
+// Evaluates the curve by De Boor's algorithm in homogeneous coordinates (w x, w y, w).
+// Precondition: t is between knots[span] and knots[span + 1].
 Point point_at(const Nurbs& curve, int span, double t) {
   const int p = curve.degree;
   std::vector<std::array<double, 3>> d;
@@ -50,8 +51,8 @@ Point point_at(const Nurbs& curve, int span, double t) {
   return {d[p][0] / d[p][2], d[p][1] / d[p][2]};
 }
 
-// The length of the curve, approximated by a polyline through many of its points, so slightly too
-// small for a bent curve.
+// The length of a polyline through many points of the curve. For a bent curve this is slightly less
+// than its length.
 double length_of(const Nurbs& curve) {
   double length = 0;
   for (int span = curve.degree; span < std::ssize(curve.points); ++span) {
@@ -68,7 +69,8 @@ double length_of(const Nurbs& curve) {
   return length;
 }
 
-// Exporters write null for unknown values.
+// Returns the value of a key. Returns nullopt if it is missing or null, because exporters write
+// null for unknown values.
 std::optional<JsonValue> find_given(const JsonValue& object, const char* key) {
   auto value = object.find(key);
   return value && value->json().is_null() ? std::nullopt : value;
@@ -81,7 +83,7 @@ std::string id_of(const JsonValue& object, const char* key) {
   return id;
 }
 
-// For example "'a', 'b'".
+// Returns the names as a list for messages, such as "'a', 'b'".
 std::string listed(const std::set<std::string>& names) {
   std::string text;
   for (const std::string& name : names)
@@ -151,7 +153,8 @@ class LifReader {
       elsewhere_.insert(nodes.element(k).member("nodeId").text());
   }
 
-  // The vehicle types of all nodes and edges. A node or edge without properties is for all types.
+  // The vehicle types that occur in nodes and edges. Nodes and edges without vehicle type
+  // properties are for all types.
   std::set<std::string> vehicle_types(const JsonValue& layout) const {
     std::set<std::string> types;
     for (const auto& [list, key] : {std::pair{"nodes", "vehicleTypeNodeProperties"},
@@ -179,7 +182,7 @@ class LifReader {
                                               type, listed(types)));
   }
 
-  // Whether the vehicle may use a node or an edge, and its properties there.
+  // Says whether the vehicle type may use a node or an edge, and has its properties there.
   struct Use {
     bool may = true;
     std::optional<JsonValue> properties;
@@ -217,8 +220,8 @@ class LifReader {
     network_.vertices.push_back({std::move(id), at});
   }
 
-  // The vertex at an end of an edge. Returns nullopt if it is in another layout, or not for this
-  // vehicle type.
+  // The vertex at an end of an edge. Returns nullopt if the node is in a different layout or is not
+  // for this vehicle type.
   std::optional<int> end_of(const JsonValue& edge, const char* key, bool& is_elsewhere) const {
     const JsonValue value = edge.member(key);
     const std::string id = value.text();
@@ -326,7 +329,7 @@ class LifReader {
   RoadNetwork network_;
   std::unordered_map<std::string, int> numbers_;  // index of the vertex, by id
   std::unordered_set<std::string> unusable_;      // nodes that this vehicle type may not use
-  std::unordered_set<std::string> elsewhere_;     // nodes of other layouts
+  std::unordered_set<std::string> elsewhere_;     // nodes in other layouts
   std::unordered_set<std::string> edge_ids_;
   int edges_away_ = 0;
 };

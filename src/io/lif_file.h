@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Roads in LIF 1, the Layout Interchange Format of the VDMA: track layouts for VDA 5050.
+// Reads road networks from LIF 1, the VDMA's Layout Interchange Format for track layouts (VDA
+// 5050).
 //
 //   {"layouts": [{"layoutId": "hall",
 //     "nodes": [{"nodeId": "N1", "nodePosition": {"x": 0.0, "y": 0.0}}, ...],
 //     "edges": [{"edgeId": "E1", "startNodeId": "N1", "endNodeId": "N2",
 //                "vehicleTypeEdgeProperties": [{"vehicleTypeId": "T", "maxSpeed": 1.5}]}, ...]}]}
 //
-// (github.com/Intralogistics-2X-LIF/Layout-Interchange-Format.) Positions are in metres, maxSpeed
-// is in m/s. Every edge is directed, so every road is one way. The length of an edge is the
-// distance between its ends or the length of its trajectory, a NURBS curve, whichever is greater.
+// (github.com/Intralogistics-2X-LIF/Layout-Interchange-Format.) Positions are in metres, and
+// maxSpeed is in m/s. Every edge is directed, so every road is one-way. The length of an edge is
+// the greater of the distance between its ends and the length of its trajectory, a NURBS curve.
 #pragma once
 
 #include <filesystem>
@@ -20,19 +21,21 @@
 
 namespace grove::detail {
 
-// The layout and vehicle type to read; empty if the file has only one.
+// The layout and the vehicle type to read. A name may be empty if the file has only one of the
+// kind.
 struct LifChoice {
   std::string layout{};        // layoutId
-  std::string vehicle_type{};  // vehicleTypeId; edges and nodes that it may not use are omitted
+  std::string vehicle_type{};  // vehicleTypeId; nodes and edges that it may not use are omitted
 };
 
-// Throws InputError, with the JSON Pointer, for invalid files: repeated or unknown ids, speeds that
-// are not positive, edges whose ends are at the same point. Also throws if the choice does not
-// exist, or is empty although the file has several layouts or types. Appends to `warnings` one line
-// for each key that LIF does not define, and one about edges to other layouts, which are omitted.
+// Reads a file. Throws InputError, with the JSON Pointer, for invalid files. Invalid are repeated
+// or unknown ids, speeds that are not positive, and edges whose ends are at the same point. Also
+// throws InputError if the chosen layout or vehicle type does not exist, or is empty although the
+// file has several. Appends to `warnings`, unless it is nullptr, one line for each key that LIF
+// does not define, and one line if edges to other layouts were omitted.
 RoadNetwork read_lif(const std::filesystem::path& path, const LifChoice& choice = {},
                      std::vector<std::string>* warnings = nullptr);
-// The same for the text of such a file. `name` stands for the file in messages.
+// Parses the text of such a file. `name` is the name of the file in messages.
 RoadNetwork parse_lif(std::string_view text, const std::string& name, const LifChoice& choice = {},
                       std::vector<std::string>* warnings = nullptr);
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view kPassable = ".GSE";
 constexpr std::string_view kBlocked = "@OTW";
-constexpr std::string_view kUsual = ".@T";  // characters that all tools interpret in the same way
+constexpr std::string_view kUsual = ".@T";  // characters that all tools interpret alike
 constexpr std::size_t kHeaderLines = 4;
 
 struct Size {
@@ -64,7 +64,8 @@ class MapReader {
       fail(line, 0, fmt::format("found '{}'; expected '{}'", one_line(text), expected));
   }
 
-  // The number in a line "<key> <number>". Returns nullopt if the line does not begin with the key.
+  // The number in header line `line`, which has the form "<key> <number>". Returns nullopt if the
+  // line does not begin with the key.
   std::optional<int> number_after(std::size_t line, std::string_view key) const {
     const std::string_view text = header_line(line, "height' or 'width");
     if (!text.starts_with(key) || text.size() <= key.size() || text[key.size()] != ' ')
@@ -78,8 +79,8 @@ class MapReader {
     return number;
   }
 
-  // If the file does not begin as a map, the message does not quote it, because it may be another
-  // file.
+  // Throws InputError if the file does not begin like a map. The message does not quote the file,
+  // because the user may have named it by mistake.
   void expect_map() const {
     if (constexpr std::string_view kFirst = "type octile"; header_line(0, kFirst) != kFirst)
       fail(0, 0,

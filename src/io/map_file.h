@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Moving AI maps (https://movingai.com/benchmarks/formats.html), read strictly.
+// Reads and writes Moving AI maps (https://movingai.com/benchmarks/formats.html).
 #pragma once
 
 #include <filesystem>
@@ -11,17 +11,19 @@
 
 namespace grove::detail {
 
-// The maximum number of cells of a map: about 8192 x 8192.
+// The maximum number of cells of a map: 2^26, for example 8192 x 8192.
 inline constexpr int kMaxMapCells = 1 << 26;
 
 // Reads a .map file: four header lines (type octile, height, width, map; height and width in either
 // order), then `height` rows of `width` characters. Passable: . G S E. Blocked: @ O T W. CRLF line
-// ends and a missing last line end are accepted. Appends to `warnings` if there are characters
-// other than . @ T. Throws InputError with line and column for any other content.
+// ends are accepted, and the last line end may be missing. Throws InputError with line and column
+// for any other content. Appends a warning to `warnings`, unless it is nullptr, if there are
+// characters other than . @ T.
 Grid read_map(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr,
               const InputRules& rules = {});
 
-// Writes `grid` with '.' and '@', atomically. Throws InputError if it cannot.
+// Writes `grid` as a .map file with '.' and '@', atomically. Throws InputError if the file cannot
+// be written.
 void write_map(const std::filesystem::path& path, const Grid& grid);
 
 }  // namespace grove::detail

@@ -24,7 +24,7 @@ const char* name_of(Action::Kind kind) {
   return "work";
 }
 
-// By action: the number of its ring, from 0; -1: in no ring.
+// By action: the number of its ring, from 0; -1: not in a ring.
 std::vector<int> rings_of(const ActionDependencyGraph& order) {
   std::vector<int> rings(order.actions().size(), -1);
   int ring = 0;
@@ -41,7 +41,8 @@ OrderedJson point_json(const Instance& instance, const Frame& frame, State state
   return {at.x, at.y};
 }
 
-// The begin of the action in the plan; negative if the robot starts at work on it.
+// The begin time of the action in the plan; negative for a task execution that was in progress at
+// the start.
 Time planned_begin(const Instance& instance, const ActionDependencyGraph& order,
                    ActionIndex index) {
   const Action& action = order.actions()[index];
@@ -90,7 +91,7 @@ std::string passing_order_text(const Instance& instance, const ActionDependencyG
       actions.push_back(action_json(instance, order, frame, i, rings[i]));
     for (const TaskVisit& visit : visits[agent]) {
       const Task& task = instance.task(visit.task);
-      if (task.duration > 0) continue;  // the action itself contains the task
+      if (task.duration > 0) continue;  // its action names the task
       const bool is_at_start = visit.action == kNoAction;
       (is_at_start ? robot : actions[visit.action - order.begin_of(agent)])["visits"].push_back(
           task.id);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes action dependency graphs as files (docs/passing-order.md).
+// Formats action dependency graphs as passing order files (docs/passing-order.md).
 #pragma once
 
 #include <string>
@@ -10,7 +10,8 @@
 
 namespace grove::detail {
 
-// One JSON object with the actions of each robot, their positions, and their dependencies.
+// Returns a JSON object with the actions of each robot, their positions in the world frame, and
+// their dependencies.
 std::string passing_order_text(const Instance& instance, const ActionDependencyGraph& order,
                                const Frame& frame);
 

@@ -20,7 +20,7 @@ int read_vertex_id(const Roadmap& roadmap, const JsonValue& id) {
   return *vertex;
 }
 
-// The index of the road that an entry [from, to, steps] or [from, to, steps, road] refers to.
+// The index of the road to which an entry [from, to, steps] or [from, to, steps, road] refers.
 int road_meant(const Roadmap& roadmap, const JsonValue& entry, int from, int to) {
   const auto roads = roadmap.roads_between(from, to);
   if (entry.size() == 4) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Position of an agent in files: [x, y] on a grid; [x, y, "N"] if the agent turns, and [x, y, "N",
-// "E", k] within a turn; ["A"] on a roadmap, or ["A", "B", k] k steps from A (docs/design.md,
-// section 1).
+// Path entries, which are the positions of agents in files: on a grid [x, y]; for agents that turn
+// [x, y, "N"], or [x, y, "N", "E", k] after k steps of a turn; on a roadmap ["A"], or ["A", "B", k]
+// at k steps from A, with the number of the road as a fourth element if several roads join A and B
+// (docs/design.md, section 5).
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,16 +12,16 @@
 
 namespace grove::detail {
 
-// The read functions throw InputError at `value` if it is not a position on this map, or not valid
-// for this motion. (The cell may be blocked.)
+// The read functions throw InputError at `value` if it is not an entry of the required form for
+// this map and motion. They accept blocked cells.
 Pose read_pose(const Map& map, Motion motion, const JsonValue& value);
 Heading read_heading(const JsonValue& value);
 
 nlohmann::ordered_json pose_json(const Map& map, Motion motion, const Pose& pose);
 
-// The place of a vertex. The entry may also be the id only.
+// Reads the place of a vertex, written as ["A"] or "A".
 Place read_vertex(const Roadmap& roadmap, const JsonValue& value);
-// The same for a start, where a vertex is written as its id only.
+// Reads the place of a start, written as a path entry or as the id of a vertex.
 Place read_start(const Roadmap& roadmap, const JsonValue& value);
 
 }  // namespace grove::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The formats of libMultiRobotPlanning, of mapf-visualizer and of EECBS. The others are in
-// planviz_file.cpp and robot_paths.cpp.
+// Writers for the formats of libMultiRobotPlanning, mapf-visualizer and EECBS. The other writers
+// are in planviz_file.cpp and robot_paths.cpp.
 #include "io/plan_export.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@
 namespace grove::detail {
 namespace {
 
-// The line "  key: value" if the run has a counter `name`; else "".
+// Returns the line " key: value" with counter `name`; "" if the run does not have this counter.
 std::string count_line(const Stats& stats, const std::string& name, std::string_view key) {
   const auto it = stats.counts.find(name);
   return it == stats.counts.end() ? "" : fmt::format("  {}: {}\n", key, it->second);
@@ -42,7 +42,7 @@ void add_steps(std::string& text, const Grid& grid, const Path& path) {
   }
 }
 
-// YAML parsers search for the colon only within this number of characters.
+// YAML limits simple keys to this number of characters.
 constexpr std::size_t kMaxKeyLength = 1024;
 
 std::string key_text(const Instance& instance, AgentIndex agent) {
@@ -71,14 +71,15 @@ void write_libmrp_schedule(const std::filesystem::path& path, const Instance& in
 
 namespace {
 
-// mapf-visualizer finds only positions that are followed by a comma.
+// Appends a position. The comma is required, because mapf-visualizer only finds positions that are
+// followed by one.
 void add_position(std::string& text, const Grid& grid, Cell cell) {
   const Position p = grid.position(cell);
   fmt::format_to(std::back_inserter(text), "({},{}),", p.x, p.y);
 }
 
-// The number of steps that are not waits on the agent's last cell. Such waits do not count even if
-// the agent leaves the cell again later.
+// The agent's sum of loss: the number of time steps that are not waits on its last cell. Such waits
+// do not count even if the agent leaves the cell again later.
 Cost loss(const Path& path) {
   Cost steps = 0;
   for (std::size_t t = 1; t < path.size(); ++t)
@@ -86,7 +87,8 @@ Cost loss(const Path& path) {
   return steps;
 }
 
-// A lower bound on the finish time: the maximum distance to a task or the destination.
+// A lower bound on the finish time: the maximum distance from the start to a task or the
+// destination.
 Time farthest_stop(const Instance& instance, const Agent& agent) {
   const DistanceField distance = distance_field(instance.grid(), agent.start);
   Time farthest = agent.goal ? distance[*agent.goal] : 0;

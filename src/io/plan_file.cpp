@@ -27,8 +27,7 @@ constexpr std::int64_t kLargestCost = kInfiniteCost;
 
 OrderedJson omega_json(const Omega& omega) {
   if (omega.is_infinite()) return "inf";
-  return OrderedJson::parse(
-      omega.to_string());  // the shortest decimal, not the expansion of a double
+  return OrderedJson::parse(omega.to_string());  // shortest decimal
 }
 
 OrderedJson agent_json(const Instance& instance, AgentIndex index, const AgentPlan& plan) {
@@ -63,7 +62,7 @@ OrderedJson solution_json(const Instance& instance, const Solution& solution) {
   json["lower_bound"] = solution.lower_bound;
   json["omega"] = omega_json(solution.omega);
   if (!instance.may_follow() || !solution.may_follow)
-    json["following"] = false;  // the claims hold for that instance only
+    json["following"] = false;  // the claims hold only without following
   if (solution.plan) {
     OrderedJson& agents = json["agents"] = OrderedJson::array();
     for (std::size_t i = 0; i < solution.plan->agents.size(); ++i)
@@ -160,7 +159,7 @@ class PlanReader {
   IndexById tasks_;
 };
 
-// Counters of plan files of before 0.1, and their present names.
+// Converts a counter's name in plan files from versions before 0.1 to its current name.
 std::string current_counter(const std::string& name) {
   static const std::unordered_map<std::string, std::string> kRenamed{
       {"batches", "node_batches"},

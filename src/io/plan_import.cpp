@@ -23,8 +23,8 @@ namespace {
 
 using Paths = std::vector<Path>;  // by AgentIndex
 
-// Reads a line from left to right. If an expected item is missing, throws InputError with its
-// position.
+// Reads a line from left to right. The functions take_...() throw InputError with the position if
+// the expected item is missing.
 class LineReader {
  public:
   LineReader(const std::filesystem::path& path, std::size_t number, std::string_view line)
@@ -47,7 +47,7 @@ class LineReader {
     rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
     return value;
   }
-  // Reads "(3,4)": column and row, or row and column if `row_first`.
+  // Reads a cell such as "(3,4)": column and row or, if `row_first`, row and column.
   Cell take_cell(const Grid& grid, bool row_first) {
     const std::string_view before = rest_;
     take("(");
@@ -74,7 +74,7 @@ class LineReader {
   std::string_view rest_;
 };
 
-// True for JSON, and for an empty file.
+// True if the text is JSON (begins with { or [) or is blank.
 bool is_json(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   return first == std::string_view::npos || text[first] == '{' || text[first] == '[';
@@ -114,15 +114,15 @@ Paths read_path_lists(const std::filesystem::path& path, const Instance& instanc
   return paths;
 }
 
-// The paths of a file, and its claims about them.
+// The content of a file: paths, and claims about them.
 struct ClaimedPaths {
-  std::optional<Paths> paths;  // nullopt: not solved
+  std::optional<Paths> paths;  // nullopt: the file has no plan
   std::optional<Cost> cost;
   std::optional<Cost> lower_bound;
 };
 
-// The agent with this id. "agent7" may also be the agent with number 7, because some tools do not
-// use names.
+// The agent with this id. If there is none, "agent7" means the agent with number 7, because some
+// tools do not use names.
 AgentIndex agent_called(const Instance& instance, const YamlValue& name) {
   const std::string text = name.text();
   const auto agents = instance.agents();
@@ -155,7 +155,7 @@ Path read_schedule_of_agent(const Instance& instance, const YamlValue& steps) {
   return path;
 }
 
-// Reads the schedules of libMultiRobotPlanning, MGCBS and ITA-CBS.
+// Reads a schedule of libMultiRobotPlanning, MGCBS or ITA-CBS.
 ClaimedPaths read_schedule(const std::filesystem::path& path, const Instance& instance,
                            const std::string& name) {
   const YamlDocument document(path);
@@ -201,8 +201,8 @@ ClaimedPaths read_visualizer_text(const std::filesystem::path& path, const Insta
   return text;
 }
 
-// The tasks in the order of their first visits. For an agent without a destination, the task on its
-// last place is last.
+// The agent's tasks in the order of their first visits. For an agent without a destination, a task
+// on the last place of the path comes last.
 std::vector<TaskIndex> order_of_tasks(const Instance& instance, const Agent& agent,
                                       const Path& path) {
   std::vector<TaskIndex> tasks = agent.tasks;
@@ -237,7 +237,7 @@ void recompute_costs(Plan& plan) {
   }
 }
 
-// Removes all claims except for the costs of the plan.
+// Removes all claims except the costs of the plan.
 void forget_claims(Solution& solution) {
   solution.omega = Omega::infinite();
   solution.lower_bound = 0;

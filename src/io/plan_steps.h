@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Times of a plan that its files in other formats state: of rests and visits.
+// Times in a plan at which agents come to rest and visit tasks, for files in other formats.
 #pragma once
 
 #include <algorithm>
@@ -10,22 +10,23 @@
 
 namespace grove::detail {
 
-// The path until the agent rests: without the waits at its end. Empty only if the path is.
+// The path without the waits at its end. It is empty only if `path` is empty.
 inline std::span<const Cell> until_rest(const Path& path) {
   std::size_t size = path.size();
   while (size > 1 && path[size - 2] == path[size - 1]) --size;
   return {path.data(), size};
 }
 
-// The time at which the last agent comes to rest.
+// The earliest time at which all agents rest for ever.
 inline Time makespan(const Plan& plan) {
   std::size_t last = 0;
   for (const AgentPlan& agent : plan.agents) last = std::max(last, until_rest(agent.path).size());
   return last == 0 ? 0 : static_cast<Time>(last - 1);
 }
 
-// The times at which the agent visits, or completes, each task of its sequence, in that order, each
-// as early as possible. Precondition: the plan is valid.
+// By position in the agent's sequence: the earliest time at which the agent can be said to visit
+// the task or to complete its execution, if it visits the tasks in this order. Precondition: the
+// plan is valid.
 inline std::vector<Time> visit_times(const Instance& instance, const AgentPlan& plan) {
   std::vector<Time> times;
   Time time = 0;

@@ -62,7 +62,7 @@ OrderedJson start_json(const Instance& instance, AgentIndex agent) {
   return {p.y, p.x, std::string(1, turns(instance) ? letter(pose.heading) : 'E')};
 }
 
-// The agent's errands, as [row, column], and the time at which each is done.
+// An agent's errands as cells [row, column], and the time at which each is completed.
 struct Errands {
   OrderedJson cells = OrderedJson::array();
   std::vector<Time> times;

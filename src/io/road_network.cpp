@@ -14,8 +14,9 @@
 namespace grove::detail {
 namespace {
 
-// 1.2 / 0.4 is slightly less than 3, and 2.1 / 0.7 could be slightly more. Lengths that were
-// computed from positions have such errors, too. No robot is that accurate.
+// Quotients within this relative distance of an integer count as the integer. Due to rounding, 1.2
+// / 0.4 is slightly less than 3, and other quotients and lengths computed from positions can be
+// slightly too large. No robot is that accurate.
 constexpr double kNoise = 1e-9;
 
 double without_noise(double steps) {
@@ -60,8 +61,8 @@ void require_room(const RoadNetwork& network, const Link& link, std::int64_t pla
             Roadmap::kMaxPlaces));
 }
 
-// The one-way roads, grouped by their pair of vertices. In each group first one direction, then the
-// other, each by steps.
+// Returns the one-way roads, grouped by their unordered pair of ends. Within a group the roads in
+// one direction come before those in the other direction, and each of these are sorted by steps.
 std::vector<int> by_ends(const std::vector<Road>& roads) {
   std::vector<int> order;
   for (std::size_t r = 0; r < roads.size(); ++r)
@@ -74,7 +75,8 @@ std::vector<int> by_ends(const std::vector<Road>& roads) {
   return order;
 }
 
-// Calls `visit` for all pairs of vertices with the roads of one direction and those of the other.
+// Calls visit(there, back) for each unordered pair of vertices, with the one-way roads in one
+// direction and those in the opposite direction, each sorted by steps.
 template <typename Visit>
 void for_each_pair_of_ends(const std::vector<Road>& roads, Visit visit) {
   const std::vector<int> order = by_ends(roads);
@@ -89,7 +91,8 @@ void for_each_pair_of_ends(const std::vector<Road>& roads, Visit visit) {
   }
 }
 
-// The pairs of opposite roads with equal numbers of steps. `there` and `back` are sorted by steps.
+// Matches opposite roads with equal numbers of steps, each road at most once. Precondition: `there`
+// and `back` are sorted by steps.
 std::vector<std::pair<int, int>> pairs_alike(const std::vector<Road>& roads,
                                              const std::vector<int>& there,
                                              const std::vector<int>& back) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads and writes roadmaps (docs/design.md, section 5).
+// Reads and writes roadmap files (docs/design.md, section 5).
 #pragma once
 
 #include <filesystem>
@@ -14,10 +14,10 @@ namespace grove::detail {
 
 // Reads a *.roadmap.json file. Throws InputError for invalid files and for unknown keys.
 Roadmap read_roadmap(const std::filesystem::path& path, const InputRules& rules = {});
-// The same for the text of such a file. `name` stands for the file in messages.
+// Parses the text of such a file. `name` is the name of the file in messages.
 Roadmap parse_roadmap(std::string_view text, const std::string& name, const InputRules& rules = {});
 
-// Writes the roadmap atomically. Throws InputError if the file cannot be written.
+// Writes a *.roadmap.json file, atomically. Throws InputError if the file cannot be written.
 void write_roadmap(const std::filesystem::path& path, const Roadmap& roadmap,
                    Durability outlives = Durability::kMachine);
 

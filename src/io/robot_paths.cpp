@@ -70,7 +70,7 @@ class WaypointsOf {
   Point at(Time t) const {
     return metres(instance_.map(), scale_.frame, instance_.world().place(state(t)));
   }
-  // By time: the task that the robot visits or works on; "" if there is none.
+  // By time: the id of the task that the robot visits or executes; "" if there is none.
   std::vector<std::string> tasks_by_time() const {
     std::vector<std::string> tasks(static_cast<std::size_t>(end()) + 1);
     const std::vector<Time> visits = visit_times(instance_, plan_);

@@ -37,7 +37,7 @@ std::vector<Field> split_fields(std::string_view line) {
   return fields;
 }
 
-// A line of the file, with its position for messages.
+// Reads one line of the file, and reports errors with their positions.
 class RowReader {
  public:
   RowReader(const std::string& file, std::size_t line, std::string_view text)
@@ -63,7 +63,7 @@ class RowReader {
     throw InputError(file_, line_and_column(line_, column), message);
   }
 
-  // The column of the first surplus field, or of the missing field.
+  // The column of the first surplus field or, if a field is missing, of the end of the line.
   std::size_t end_column(std::string_view text) const {
     return fields_.size() > kFields ? fields_[kFields].column : text.size() + 1;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Moving AI scenarios (.scen), read strictly.
+// Reads and writes Moving AI scenarios (.scen).
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,10 @@
 
 namespace grove::detail {
 
-// One row. The bucket and the length are not stored, because an octile distance is not a bound on a
-// 4-connected grid.
+// A row of a scenario, without bucket and length. (The length in Moving AI's files is an octile
+// distance, not the distance in a 4-connected grid.)
 struct ScenarioRow {
-  int line = 0;  // in the file, from 1; for messages
+  int line = 0;  // line in the file, from 1; for messages
   std::string map;
   int width = 0;
   int height = 0;
@@ -23,22 +23,23 @@ struct ScenarioRow {
   Position goal;
 };
 
-// All rows in the order of the file. Throws InputError with line and column.
+// Reads all rows, in the order of the file. Throws InputError, with line and column, for invalid
+// content.
 std::vector<ScenarioRow> read_scenario(const std::filesystem::path& path);
 
-// The path of the map that the first row names, in the folder of `scenario`; empty if the file does
-// not exist.
+// Returns the path of the map that the first row names, in the folder of `scenario`. Returns an
+// empty path if there is no such file.
 std::filesystem::path map_beside(const std::filesystem::path& scenario,
                                  const InputRules& rules = {});
 
-// Throws InputError, with `scenario` and the line, unless every row is for `map`: the file part of
-// its name and the size must agree.
+// Throws InputError, with the line in `scenario`, unless every row has the file name of `map`
+// (without its folder) and the size of `grid`.
 void require_same_map(const std::filesystem::path& scenario, std::span<const ScenarioRow> rows,
                       const std::filesystem::path& map, const Grid& grid);
 
-// Writes `rows` atomically. `lengths`, one per row, are written to the last column: the 4-connected
-// distance from start to goal, where Moving AI's own files have the octile distance. The bucket is
-// a quarter of it, as in Moving AI's files.
+// Writes a scenario, atomically. `lengths` has one entry per row for the last column, which is the
+// 4-connected distance from start to goal (Moving AI's own files have the octile distance). The
+// bucket is a quarter of the length, as in Moving AI's files.
 void write_scenario(const std::filesystem::path& path, const std::vector<ScenarioRow>& rows,
                     const std::vector<Time>& lengths);
 

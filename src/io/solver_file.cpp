@@ -60,7 +60,8 @@ std::string template_of(const JsonValue& value) {
   return text;
 }
 
-// Reads "REGEX", or {"file": ..., "regex": ...}, which may have further keys.
+// Reads a pattern, written as "REGEX" or as {"file": ..., "regex": ...}. The object may have
+// further keys.
 LinePattern pattern_of(const JsonValue& value, std::size_t groups) {
   LinePattern pattern;
   JsonValue regex = value;

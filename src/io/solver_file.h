@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Adapters: files that describe how to run another solver, and how to read its results
-// (docs/benchmarking.md).
+// Reads solver adapters, which are files that describe how to run another solver and how to find
+// its results (docs/benchmarking.md).
 #pragma once
 
 #include <cstdint>
@@ -12,79 +12,84 @@
 
 namespace grove::detail {
 
-// The format in which a solver reads an instance.
+// The format in which a solver reads an instance, and the placeholders for it in the command.
 enum class SolverInput : std::uint8_t {
   kMovingAi,        // {map}, {scenario}, {agents}: classical MAPF
-  kGrove,           // {instance}, a *.cts.json: every instance of Grove
+  kGrove,           // {instance}, a *.cts.json file: every Grove instance
   kLibmrp,          // {instance}, YAML of libMultiRobotPlanning: classical MAPF
-  kPotentialGoals,  // {instance}, the same with one potential goal per agent: ITA-CBS, CBS-TA
+  kPotentialGoals,  // {instance}, the YAML of kLibmrp with one potential goal per agent: ITA-CBS,
+                    // CBS-TA
   kMgcbs,           // {instance}, YAML with lists of goals: MG-MAPF
 };
 
-// A pattern for a line with a result. The last line in which the expression is found counts. (Of a
-// line longer than kMaxLineLength only the beginning is searched: such a line is a path and not a
-// claim, and libstdc++'s regular expressions are recursive.)
+// Only this number of characters of a line is searched for a pattern, because longer lines are
+// paths and no results, and libstdc++ matches regular expressions by recursion.
 inline constexpr std::size_t kMaxLineLength = 4096;
+
+// A pattern for a line with a result. The last line in which the regular expression is found
+// counts.
 struct LinePattern {
-  std::string file;   // a template; empty: the standard output of the program
+  std::string file;   // template for a file name; empty: the program's standard output
   std::string regex;  // ECMAScript
-  double scale = 1;   // factor for the number in group 1: 0.001 for milliseconds
+  double scale = 1;   // factor for the number in group 1, for example 0.001 for milliseconds
 };
 
-// The meaning of group k of an expression, from k = 1.
+// The meaning of a group of a trace expression.
 enum class TraceGroup : std::uint8_t {
   kSeconds,
   kMilliseconds,
-  kSecondsLeft,  // remaining time
+  kSecondsLeft,  // time left until the time limit
   kCost,
   kLowerBound
 };
 
-// Each line in which the expression is found reports a plan found before the end.
+// A pattern for lines that report intermediate plans. Each line in which the expression is found
+// counts.
 struct TracePattern {
   LinePattern line;
-  std::vector<TraceGroup> groups;  // one of them is a time, one the cost
+  std::vector<TraceGroup> groups;  // by group, from group 1; one is a time and one is kCost
 };
 
 struct SolverAdapter {
   std::string name;                       // letters, digits and -_.+=
-  std::string about = {};                 // description
-  std::vector<std::string> command = {};  // templates; {program} is the program
+  std::string about = {};                 // description for users
+  std::vector<std::string> command = {};  // templates; {program} stands for the program
   SolverInput input = SolverInput::kMovingAi;
-  std::string plan = "{output}";  // a template for the file with the paths; empty: there is none
-  bool anytime = false;           // it runs until its time limit, which is not a failure
+  std::string plan = "{output}";  // template for the file with the paths; empty: none
+  bool anytime = false;           // the solver runs until its time limit, which is no failure
   std::int64_t threads = 1;       // number of threads of the solver
-  // Group 1 is a number. `solved` has no group; the expression only has to be found.
+  // Results. Group 1 of each expression is a number, except in `solved`, whose expression only has
+  // to be found.
   std::optional<LinePattern> solved = {};
   std::optional<LinePattern> cost = {};
   std::optional<LinePattern> lower_bound = {};
   std::optional<LinePattern> seconds = {};
-  std::optional<LinePattern> first_plan = {};  // seconds
+  std::optional<LinePattern> first_plan = {};  // time of the first plan, in seconds
   std::vector<TracePattern> trace = {};
 };
 
-// Reads an adapter from a file or a text. An unknown key is an error. `name` stands for the file of
-// a text. Both functions throw InputError.
+// Read an adapter from a file, or from its text. `name` is the name of the file in messages. Both
+// functions throw InputError for invalid content and for unknown keys.
 SolverAdapter read_solver(const std::filesystem::path& path);
 SolverAdapter parse_solver(std::string_view text, const std::string& name);
 
-// An error message if `command` does not contain the templates that `input` requires; empty: it
-// does.
+// Returns an error message if `command` lacks a placeholder that `input` requires; otherwise "".
 std::string input_mistake(SolverInput input, const std::vector<std::string>& command);
-// True if a template in `command` contains {name}.
+// True if a template in `command` contains the placeholder {name}.
 bool names(const std::vector<std::string>& command, std::string_view name);
 
-// The words of a command line, separated by blanks outside '...' and "...". Returns nullopt if a
-// quote is not closed.
+// Splits a command line into words at blanks outside of '...' and "...". Returns nullopt if a quote
+// is not closed.
 std::optional<std::vector<std::string>> command_words(std::string_view text);
 
-// An error message for an invalid template, for example with an unknown name in braces; empty: it
-// is valid.
+// Returns an error message if the template is invalid, for example because of an unknown
+// placeholder; otherwise "".
 std::string template_mistake(std::string_view text);
-// An error message for an invalid regular expression, or one with fewer than `groups` groups;
-// empty: it is valid.
+// Returns an error message if the regular expression is invalid or has fewer than `groups` groups;
+// otherwise "".
 std::string regex_mistake(const std::string& text, std::size_t groups);
-// Replaces each name in braces by value(name). Precondition: the template is valid.
+// Returns `text` with each placeholder {name} replaced by value(name). Precondition: the template
+// is valid.
 template <typename Value>
 std::string filled(std::string_view text, const Value& value) {
   std::string result;

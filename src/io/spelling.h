@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds the known word that is most similar to an unknown one, for messages.
+// Finds the known word that is most similar to an unknown word, for error messages.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,13 @@
 
 namespace grove::detail {
 
-// Optimal string alignment distance. The edits are: insert, delete or change a letter, and exchange
-// two adjacent letters.
+// The optimal string alignment distance: the number of edits, each of which inserts, deletes or
+// changes a letter, or exchanges two adjacent letters.
 std::size_t edit_distance(std::string_view from, std::string_view to);
 
-// The most similar word of `known`; the first one of several. Returns nullopt if no word is within
-// one edit for each three letters of the shorter word, and within two edits.
+// Returns the nearest of the words in `known` that are within two edits, and within one edit for
+// each three letters of the shorter word; the first of several nearest words. Returns nullopt if
+// there is no such word.
 std::optional<std::string_view> nearest_word(std::string_view word,
                                              const std::vector<std::string_view>& known);
 

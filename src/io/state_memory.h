@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Estimates the memory for the states of agents that turn or work, before it is allocated.
+// Estimates the memory for the states of agents that turn or work, before these states are created.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace grove::detail {
 
-// An upper bound on the number of states that InstanceBuilder::build() would create
-// (model/motion_world.cpp). Each kind of turning has a state for each heading on each place, and
-// the steps of the turns between headings. Each task that takes time has a chain for each state in
-// which it may be begun: one for agents that turn freely, one for each heading and kind of turning,
-// and one for the state of an agent that starts there.
+// Computes an upper bound on the number of states that InstanceBuilder::build() would create
+// (model/motion_world.cpp). For each distinct turn_steps, each place has a state for each heading
+// and for each step within a turn. Each task that takes time has a chain of states for each base
+// state in which it can be executed: one for agents that turn freely, one for each heading and each
+// distinct turn_steps, and one for an agent that starts at work within a turn.
 class StateMemory {
  public:
   explicit StateMemory(const InstanceBuilder& builder)
@@ -24,13 +24,13 @@ class StateMemory {
   void add_agent(Motion motion) {
     if (motion.turn_steps > 0) turns_.insert(motion.turn_steps);
   }
-  // Call it after all agents were added.
+  // Call it after the last add_agent().
   void add_task(Time duration) {
     constexpr std::int64_t kHeadingCount = 4;
     if (duration == 0) return;
     work_ += (2 + kHeadingCount * std::ssize(turns_)) * (std::int64_t{duration} + 1);
   }
-  // Throws InputError at `root` if the states need more memory than `rules` allow.
+  // Throws InputError at `root` if the states need more memory than `rules` permits.
   void require(const JsonValue& root, const std::string& file, const InputRules& rules) const {
     if (turns_.empty() && work_ == 0) return;
     std::int64_t on_a_place = 1;

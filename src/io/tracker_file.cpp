@@ -17,7 +17,7 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-// The letter for a step to a neighbouring cell, or for a wait.
+// Returns the letter of a step to a neighbouring cell, or of a wait.
 char motion(Position from, Position to, TrackerUp up) {
   if (to.x != from.x) return to.x > from.x ? 'r' : 'l';
   if (to.y == from.y) return 'w';
@@ -25,7 +25,7 @@ char motion(Position from, Position to, TrackerUp up) {
   return is_up ? 'u' : 'd';
 }
 
-// Run-length encoding: "5r2d" for "rrrrrdd". A single letter has no number.
+// Returns the run-length encoding, such as "5r2d" for "rrrrrdd". A run of length one has no number.
 std::string run_lengths(std::string_view motions) {
   std::string text;
   while (!motions.empty()) {
@@ -45,7 +45,7 @@ std::string motion_string(const Grid& grid, const Path& path, TrackerUp up) {
   return run_lengths(motions);
 }
 
-// A CSV field, always quoted.
+// Returns `text` as a CSV field, always quoted.
 std::string csv_field(std::string_view text) {
   std::string field = "\"";
   for (char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);

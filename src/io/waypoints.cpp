@@ -16,8 +16,8 @@ std::uint64_t key_of(Position p) {
          static_cast<std::uint32_t>(p.y);
 }
 
-// The position among the task's agents of the agent that `field` is about: "agents/2", or the first
-// one for "cell".
+// Returns the position in the task's list of the agent to which `field` refers, such as 2 for
+// "agents/2"; 0 for "cell".
 std::size_t agent_of(const std::string& field) {
   const std::size_t slash = field.find('/');
   return slash == std::string::npos ? 0 : std::strtoul(field.c_str() + slash + 1, nullptr, 10);
@@ -29,7 +29,7 @@ void Waypoints::add(const std::string& agent_id, Position cell, std::string plac
   const auto [it, is_new] = stop_by_cell_.emplace(key_of(cell), stops_.size());
   if (is_new) stops_.push_back({cell, {}, {}});
   Stop& stop = stops_[it->second];
-  // The agents come in order, so only the last one can be equal.
+  // Calls are made agent by agent, so only the last entry can be this agent.
   if (!stop.agents.empty() && stop.agents.back() == agent_id)
     throw InputError(file_, place,
                      fmt::format("agent '{}' lists cell [{}, {}] twice; expected distinct cells",

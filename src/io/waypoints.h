@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tasks in formats that list the cells to visit for each agent.
+// Creates tasks from file formats that list, for each agent, the cells to visit.
 #pragma once
 
 #include <string>
@@ -10,24 +10,25 @@
 
 namespace grove::detail {
 
-// Collects cells and creates one task per cell, for all agents that list it, with the default ids.
-// The agents must be in the builder before add_to().
+// Collects cells, and creates one task per distinct cell, with a default id, for all agents that
+// list the cell. The agents must be in the builder before add_to().
 class Waypoints {
  public:
   explicit Waypoints(std::string file) : file_(std::move(file)) {}
 
-  // `place`: the position in the file. Throws InputError if the agent has already listed the cell.
+  // Adds a cell that the agent lists at position `place` of the file. Call it agent by agent.
+  // Throws InputError if the agent has already listed the cell.
   void add(const std::string& agent_id, Position cell, std::string place);
 
-  // Throws InputError at the position of an entry that violates a rule of
-  // InstanceBuilder::add_task.
+  // Adds the tasks to `builder`. If InstanceBuilder::add_task() rejects a task, throws InputError
+  // at the position of the entry that caused it.
   void add_to(InstanceBuilder& builder) const;
 
  private:
   struct Stop {
     Position cell;
     std::vector<std::string> agents;
-    std::vector<std::string> places;  // by agent
+    std::vector<std::string> places;  // by position in `agents`: position in the file
   };
 
   std::string file_;

@@ -12,7 +12,7 @@
 namespace grove::detail {
 namespace {
 
-// Words that YAML 1.1 reads as Boolean or null, in any case.
+// Words that YAML 1.1 reads as a Boolean or null, in upper or lower case.
 constexpr std::array<std::string_view, 9> kWords = {"y",   "n",    "yes",   "no",  "on",
                                                     "off", "true", "false", "null"};
 
@@ -20,7 +20,7 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-// True for a letter followed by letters, digits, - and _, except for the words above.
+// True if `text` is a letter followed by letters, digits, - and _, and is not one of kWords.
 bool is_plain(const std::string& text) {
   const auto fits = [](char c) {
     return is_letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '_';
@@ -36,7 +36,7 @@ bool is_plain(const std::string& text) {
 std::string yaml_text(const std::string& text) {
   if (is_plain(text)) return text;
   YAML::Emitter emitter;
-  emitter.SetOutputCharset(YAML::EscapeNonAscii);  // some characters end a line in YAML 1.1 only
+  emitter.SetOutputCharset(YAML::EscapeNonAscii);  // some others end a line in YAML 1.1 only
   emitter << YAML::DoubleQuoted << text;
   return emitter.c_str();
 }

@@ -5,8 +5,9 @@
 
 namespace grove::detail {
 
-// `text` as a YAML scalar that every parser reads as this text: plain if it is a name that has no
-// other meaning, quoted otherwise. ASCII only.
+// Returns a YAML scalar that every parser reads as the string `text`. It is plain if `text` is a
+// word of letters, digits, - and _ without a special meaning, and quoted otherwise. The result is
+// ASCII.
 std::string yaml_text(const std::string& text);
 
 }  // namespace grove::detail

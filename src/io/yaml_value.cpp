@@ -15,9 +15,9 @@
 namespace grove::detail {
 namespace {
 
-// Sufficient for more than a million obstacles.
+// Maximum size of a file in bytes, which is sufficient for more than a million obstacles.
 constexpr std::size_t kLargestYaml = std::size_t{32} << 20;
-constexpr std::size_t kBytesPerByte = 150;  // memory of the parser's nodes per byte of text
+constexpr std::size_t kBytesPerByte = 150;  // memory for the parser's nodes per byte of text
 
 std::string place_of(const YAML::Mark& mark) {
   if (mark.is_null()) return "";
@@ -32,14 +32,15 @@ std::string description(const YAML::Node& node) {
   return "nothing";
 }
 
-// The value of a decimal integer without leading zeros.
+// The value of a decimal integer. Returns nullopt if the text is not an integer or has leading
+// zeros.
 std::optional<int> decimal(const std::string& text) {
   const std::string_view digits = std::string_view(text).substr(text.starts_with('-') ? 1 : 0);
   const bool is_padded = digits.size() > 1 && digits.front() == '0';
   return is_padded ? std::nullopt : parse_number<int>(text);
 }
 
-// An event handler that ignores all events.
+// Ignores all events of the parser.
 class IgnoringHandler : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark&) override {}
@@ -56,8 +57,8 @@ class IgnoringHandler : public YAML::EventHandler {
   void OnMapEnd() override {}
 };
 
-// Rejects several documents, because Load() would ignore all but the first. LoadAll() is not used:
-// after a stray comma it finds empty documents for ever.
+// Throws InputError if the text has more than one document, because Load() would ignore all but the
+// first. LoadAll() is not used, because it finds empty documents for ever after a stray comma.
 void require_one_document(const std::string& file, const std::string& text) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Strict reading of YAML: values that know their file and position, so that every error names both.
-// The parser is yaml-cpp. Numbers are parsed here, because yaml-cpp reads 010 as 8 and 0x10 as 16,
-// unlike other YAML parsers.
+// Strict reading of YAML: each value stores its file name and position, so that every error message
+// states both. The parser is yaml-cpp. However, numbers are parsed here, because yaml-cpp reads 010
+// as 8 and 0x10 as 16, unlike other YAML parsers.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -19,29 +19,29 @@
 
 namespace grove::detail {
 
-// A value of a YamlDocument, which must outlive it. Every getter throws InputError if the value
-// does not have the requested type.
+// A value in a YamlDocument, which must outlive the value. Every getter throws InputError if the
+// value does not have the requested type or range.
 class YamlValue {
  public:
   YamlValue(YAML::Node node, const std::string& file) : node_(std::move(node)), file_(&file) {}
 
   const YAML::Node& node() const { return node_; }
 
-  // Members of a map: member() requires the key; find() returns nullopt if it is missing.
+  // Members of a map. member() throws InputError if the key is missing; find() returns nullopt.
   YamlValue member(std::string_view key) const;
   std::optional<YamlValue> find(std::string_view key) const;
 
-  // The elements of a list. A missing value ("obstacles:") is an empty list.
+  // The elements of a list. A missing value, as in "obstacles:", counts as an empty list.
   std::size_t size() const;
   YamlValue element(std::size_t index) const;
 
   int integer(int min, int max) const;
   // A scalar that is valid UTF-8 without NUL characters.
   std::string text() const;
-  // A cell [x, y] with x, y >= 0. A tag (!!python/tuple) is ignored.
+  // A cell [x, y] with x, y >= 0. A tag, such as !!python/tuple, is ignored.
   Position position() const;
 
-  // The position, such as "line 7, column 12".
+  // The position of the value in the file, such as "line 7, column 12".
   std::string place() const;
   // Throws InputError "found 7; expected `expected`" at this value.
   [[noreturn]] void fail_expected(std::string_view expected) const;
@@ -52,7 +52,8 @@ class YamlValue {
   const std::string* file_;
 };
 
-// A parsed file. Throws InputError unless it is exactly one YAML document that is a map.
+// A parsed YAML file. The constructor throws InputError if the file cannot be read, is not exactly
+// one YAML document that is a map, or needs more memory than `rules` permits.
 class YamlDocument {
  public:
   explicit YamlDocument(const std::filesystem::path& path, const InputRules& rules = {});
@@ -64,7 +65,7 @@ class YamlDocument {
   YAML::Node root_;
 };
 
-// Collects one warning for each unknown key, however often it occurs.
+// Adds one warning for each distinct unknown key.
 class UnknownYamlKeys {
  public:
   UnknownYamlKeys(std::string file, std::vector<std::string>* warnings)

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Builds AgentGraph: a breadth-first search forward over the reachable nodes, then one backward for
-// the costs to go.
+// Builds AgentGraph: a forward breadth-first search over the reachable nodes, and then a backward
+// one for the costs to go.
 //
-// Touching counts: an agent on a stop with its task executed, or with a task that takes no time,
-// has visited the stop. This loses nothing, because with fewer stops left an agent can do all that
-// it could with more. An agent without a destination rests on one of its own places with no stop
-// left, whatever it visited last: if that place is moved to the end of the sequence, it is visited
-// once more. Starting a task that serves none of the stops left is the same as a wait, which is a
-// move already.
+// *Touching counts.* An agent that is on a stop has visited it if its task is executed or takes no
+// time. This loses nothing, because with fewer stops left an agent can do everything that it can do
+// with more. An agent without a destination may rest on any of its own places with no stop left,
+// whatever it visited last: if that place is moved to the end of the sequence, it is visited once
+// more. Starting a task that serves none of the stops left has the same effect as a wait, which is
+// a move already.
 #include "joint/agent_graph.h"
 
 #include <algorithm>
@@ -64,7 +64,7 @@ class AgentGraphMaker {
     return left;
   }
 
-  // True unless the agent executes a task whose stop is not left.
+  // True unless the agent executes a task that serves no stop in `left`.
   bool serves(State state, Visited left) const {
     if (!world_.is_working(state)) return true;
     const std::vector<TaskIndex>& stops = instance_.agent(agent_).stops;
@@ -90,8 +90,8 @@ class AgentGraphMaker {
     return node.rests || (node.left == 0 && instance_.may_rest(agent_, node.state));
   }
 
-  // Breadth-first search backward from the nodes where the agent may rest: all moves except those
-  // within rest cost 1.
+  // Backward breadth-first search from the nodes where the agent may rest. All moves cost 1, except
+  // moves to a node at rest.
   void compute_costs() {
     std::vector<std::vector<std::uint32_t>> back(nodes_.size());
     for (std::uint32_t node = 0; node < nodes_.size(); ++node)

@@ -7,9 +7,10 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kMaxEntries = std::size_t{1}
-                                    << 18;         // entries of a database made before the search
-constexpr std::int64_t kMaxTableWork = 4'000'000;  // of these together; see search/work.h
+// Entries of one database made before the search, and effort of all of these (search/work.h).
+constexpr std::size_t kMaxEntries = std::size_t{1} << 18;
+constexpr std::int64_t kMaxTableWork = 4'000'000;
+// Entries of one late database, and maximum number of agents with which there are late databases.
 constexpr std::size_t kMaxLateEntries = std::size_t{1} << 21;
 constexpr std::size_t kMaxGroupedLate = 6;
 
@@ -70,7 +71,8 @@ void DatabaseGroups::group() {
   add_groupings(0, 0, none, 0);
 }
 
-// Adds all maximal groupings that extend `so_far` by databases from `first` on with free agents.
+// Adds all maximal groupings that extend `so_far` by databases with numbers >= `first` whose
+// members are not in `taken`.
 void DatabaseGroups::add_groupings(std::size_t first, unsigned taken, Grouping so_far,
                                    std::size_t count) {
   bool ends = true;

@@ -1,33 +1,37 @@
 // SPDX-License-Identifier: MIT
 // Optimal paths for a few agents by A* over joint states.
 //
-// States. A joint state holds a node of agent_graph.h for each agent. A step moves all agents at
-// once and costs 1 for each agent that is not at rest. So a path costs the sum of the finish times.
-// To rest for ever is a decision: an agent that could rest may continue instead, and pays for it.
+// *States.* A joint state holds a node of agent_graph.h for each agent. A step moves all agents at
+// once and costs 1 for each agent that is not at rest, so the cost of a path is the sum of the
+// finish times. To rest for ever is a decision: an agent that could rest may continue instead, at a
+// cost.
 //
-// Estimate. It is the sum of the agents' individual costs to go, plus what groups of two or three
-// agents cost more together (database_groups.h). The groups share no agent; the best grouping
-// counts. In any plan each group costs at least that, so the estimate is admissible.
+// *Estimate.* The estimate is the sum of the agents' individual costs to go, plus what groups of
+// two or three agents cost more together (database_groups.h). The groups of a grouping share no
+// agent; the best grouping counts. In any plan each group costs at least that much, so the estimate
+// is admissible.
 //
-// Layers. The queue is ordered by cost + estimate, the layer of a state. Layers are emptied in
-// rising order. Claim: the current layer is a lower bound on all plans, and the first state taken
-// with nothing left to pay ends an optimal plan. Proof: for each plan there is always a state on
-// its way in the queue whose layer is at most the plan's cost. (A state that is reached at less
-// cost enters the queue again, whatever became of it before.) States whose layer reaches the cutoff
-// are dropped, because plans through them cost at least the cutoff. So an empty queue proves that
-// no plan costs less than the cutoff, or that there is none if there is no cutoff.
+// *Layers.* The queue is ordered by the *layer* of a state, which is its cost + estimate. Layers
+// are emptied in ascending order. *Claim: the current layer is a lower bound on all plans, and the
+// first state taken whose individual costs to go are all 0 ends an optimal plan.* *Proof.* For each
+// plan there is always a state on its way in the queue whose layer is at most the plan's cost. (A
+// state that is reached at a lower cost enters the queue again, even if it has been expanded.)
+// States whose layer reaches the cutoff are dropped, because plans through them cost at least the
+// cutoff. So an empty queue proves that no plan costs less than the cutoff, or that there is no
+// plan if there is no cutoff.
 //
-// Late databases. Larger pattern databases are made when the search has taken as much work as they
-// do. A state that is taken from the queue with an estimate from before gets a new one.
+// *Late databases.* Larger pattern databases are made once the search has taken as much effort as
+// they take. If a state that is taken from the queue has an estimate from before the newest
+// database, the estimate is recomputed.
 //
-// Enhanced partial expansion (Goldenberg et al., JAIR 2014). The delta_f of a move is what it adds
-// to its agent's individual cost, never less than 0. An expansion generates the successors whose
-// summed delta_f is within the budget that the state's layer leaves. The state then re-enters the
-// queue with the next budget that occurs. So no successor is generated that costs more than the
-// optimum even by the sum of individual costs. Moves are chosen agent by agent. The next budget is
-// the least sum above the budget of a collision-free prefix. Each such prefix can be continued with
-// delta_f 0, or else it collides and the state comes again, without successors, with a greater
-// budget.
+// *Enhanced partial expansion* (Goldenberg et al., JAIR 2014). The delta_f of a move is its
+// increase of the agent's individual cost, which is never negative. An expansion generates the
+// successors whose total delta_f is within the budget that the state's layer leaves. The state then
+// re-enters the queue with the next budget that occurs. So no successor is generated that costs
+// more than the optimum even by the sum of individual costs. Moves are chosen agent by agent. The
+// next budget is the least total delta_f above the current budget of a collision-free prefix of
+// moves. Each such prefix can be continued with delta_f 0, or else it collides and the state is
+// taken again, without new successors, with a greater budget.
 #include "joint/epea_star.h"
 
 #include <algorithm>
@@ -46,13 +50,13 @@ using Node = AgentGraph::Node;
 using Index = std::uint32_t;
 constexpr Index kNone = std::numeric_limits<Index>::max();
 constexpr std::int64_t kStatesPerPoll = 256;
-constexpr std::int64_t kMadePerWork = 2;  // joint states; see search/work.h
+constexpr std::int64_t kMadePerWork = 2;  // joint states generated per unit of search/work.h
 
 }  // namespace
 
 class EpeaStar::Search {
  public:
-  // `tables`: use pattern databases. `known_bound`: known lower bound on all plans.
+  // `tables`: whether to use pattern databases. `known_bound`: known lower bound on all plans.
   Search(const Instance& instance, std::vector<AgentGraph> agents, std::size_t max_bytes,
          bool tables, Cost known_bound)
       : instance_(instance),
@@ -70,7 +74,7 @@ class EpeaStar::Search {
 
   Outcome run(std::int64_t states, Cost cutoff, const Limits& limits) {
     if (groups_.are_due()) return make_database(limits) ? Outcome::kWorking : Outcome::kTooLarge;
-    // Databases take at most half of the work.
+    // Late databases take at most half of the effort.
     if (groups_.is_late_due(generated_ / kMadePerWork))
       return groups_.make_late(limits) ? Outcome::kWorking : Outcome::kTooLarge;
     for (; states > 0 && !paths_; --states) {
@@ -110,10 +114,10 @@ class EpeaStar::Search {
   struct Record {
     Index parent = kNone;
     std::int32_t cost = 0;              // from the start
-    std::int32_t layer = 0;             // no plan through a successor not yet generated costs less
+    std::int32_t layer = 0;             // lower bound on plans through successors not generated yet
     std::int32_t individual_costs = 0;  // sum of individual costs to go
-    std::int32_t expanded_budget = -1;  // expanded for delta_f up to this; -1: not yet
-    std::uint32_t tables = 0;           // number of tables that its layer includes
+    std::int32_t expanded_budget = -1;  // expanded up to this total delta_f; -1: not expanded
+    std::uint32_t tables = 0;           // number of databases that its layer takes into account
   };
 
   bool make_database(const Limits& limits) {
@@ -148,7 +152,8 @@ class EpeaStar::Search {
         const Index state = layer.back();
         layer.pop_back();
         --queued_;
-        if (records_[state].layer == lower_bound_) return state;  // else it is queued elsewhere
+        if (records_[state].layer == lower_bound_)
+          return state;  // else it is queued in a different layer
       }
       std::vector<Index>().swap(layer);
     }
@@ -174,8 +179,8 @@ class EpeaStar::Search {
     for (Index state = 0; state < records_.size(); ++state)
       slots_[slot_of(nodes_of(state))] = state;
   }
-  // Records that a state is reached at this cost, if that is less than before and its layer is
-  // below the cutoff. A state known at this cost needs no new estimate.
+  // Records that a state is reached at this cost, if the cost is less than before and the layer is
+  // below the cutoff. A state that is known at this cost needs no new estimate.
   void reach(const Node* nodes, std::uint64_t hash, Index parent, std::int32_t cost,
              std::int32_t individual_costs) {
     ++generated_;
@@ -193,8 +198,8 @@ class EpeaStar::Search {
                       individual_costs, -1,   static_cast<std::uint32_t>(groups_.count())};
     push(slot);
   }
-  // If a table made since then raises the layer of the state, queues it in the new layer and
-  // returns true.
+  // If a database made since the last estimate raises the layer of the state, queues the state in
+  // the new layer, or drops it if the new layer reaches the cutoff, and returns true.
   bool rises(Index state, Cost cutoff) {
     Record& record = records_[state];
     if (record.tables == groups_.count()) return false;
@@ -236,7 +241,8 @@ class EpeaStar::Search {
     push(state);
   }
 
-  // Generates the chosen successors. Prefetches the hash slots and records of all of them first.
+  // Generates the chosen successors. First prefetches the hash slots of all of them, then their
+  // records.
   void reach_next() {
     for (const Next& next : next_) __builtin_prefetch(&slots_[next.hash & (slots_.size() - 1)]);
     for (const Next& next : next_) {
@@ -257,7 +263,8 @@ class EpeaStar::Search {
     return static_cast<std::size_t>(agents_[agent].place(nodes[agent]));
   }
 
-  // Chooses moves for `agent` and all later agents. The earlier ones have chosen and pay `cost`.
+  // Chooses moves for `agent` and all later agents. The moves of the earlier agents are chosen and
+  // cost `cost`.
   void choose(std::size_t agent, Time delta_f, std::int32_t cost, std::int32_t individual_costs) {
     if (agent == size()) {
       next_nodes_.insert(next_nodes_.end(), to_.begin(), to_.end());
@@ -283,8 +290,8 @@ class EpeaStar::Search {
     }
   }
 
-  // True if the move collides with that of an earlier agent or, where following is forbidden, with
-  // the present place of any agent.
+  // True if the move collides with that of an earlier agent or, where following is forbidden, leads
+  // to the current place of any other agent.
   bool collides(std::size_t agent, std::size_t here, std::size_t there) const {
     if (to_on_[there] != kNoAgent) return true;
     if (here == there) return false;
@@ -313,7 +320,7 @@ class EpeaStar::Search {
   const std::vector<AgentGraph> agents_;
   const std::size_t max_bytes_;
   DatabaseGroups groups_;
-  std::int32_t individual_costs_ = 0;  // sum of individual costs at the start
+  std::int32_t individual_costs_ = 0;  // sum of individual costs to go at the start
   std::vector<Node> nodes_;            // by state, then agent
   std::vector<Record> records_;
   std::vector<Index> slots_;  // hash table; size: a power of two
@@ -321,18 +328,18 @@ class EpeaStar::Search {
   std::size_t at_ = 0;  // in layers_
   std::size_t queued_ = 0;
   Cost first_layer_ = 0;
-  Cost lower_bound_ = 0;  // layer of at_
+  Cost lower_bound_ = 0;  // the layer at position at_
   std::int64_t states_ = 0;
   std::int64_t generated_ = 0;  // joint states generated, repetitions included
   std::optional<std::vector<Path>> paths_;
-  // The current expansion.
+  // State of the current expansion.
   struct Next {
     std::uint64_t hash;
     std::int32_t cost;  // from the start
     std::int32_t individual_costs;
   };
   std::vector<Next> next_;
-  std::vector<Node> next_nodes_;  // nodes of each, by agent
+  std::vector<Node> next_nodes_;  // the nodes of each successor, by agent
   Index parent_ = kNone;
   Cost cutoff_ = kInfiniteCost;
   Time expanded_budget_ = -1;
@@ -340,7 +347,7 @@ class EpeaStar::Search {
   Time next_budget_ = kNever;
   std::vector<Node> from_;
   std::vector<Node> to_;
-  std::vector<Time> most_;            // largest delta_f of an agent and all later ones, summed
+  std::vector<Time> most_;  // by agent: sum of the largest delta_f of this and all later agents
   std::vector<std::int8_t> from_on_;  // by place: the agent there now
   std::vector<std::int8_t> to_on_;    // by place: the agent that has chosen to move there
 };
@@ -380,7 +387,7 @@ std::unique_ptr<EpeaStar> EpeaStar::make(const Instance& instance, double max_bi
 
 EpeaStar::Outcome EpeaStar::run(std::int64_t states, Cost cutoff, const Limits& limits) try {
   return search_->run(states, cutoff, limits);
-} catch (const std::bad_alloc&) {  // lower_bound() stays that of the current layer
+} catch (const std::bad_alloc&) {  // lower_bound() remains the current layer
   return Outcome::kTooLarge;
 }
 Cost EpeaStar::lower_bound() const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Dijkstra's algorithm backward from all joint nodes in which every member is at rest or may rest.
-// A step costs 1 for each member that is not at rest. Any plan of more agents pays at least the
-// least cost of these members for them.
+// Backward Dijkstra search from all joint nodes in which every member is at rest or may rest. A
+// step costs 1 for each member that is not at rest. In any plan of more agents, the members
+// together cost at least the cost found here.
 #include "joint/pattern_database.h"
 
 #include <algorithm>
@@ -11,10 +11,10 @@ namespace grove::detail {
 namespace {
 
 using Node = AgentGraph::Node;
-constexpr std::int64_t kMovesPerWork = 20;  // see search/work.h
+constexpr std::int64_t kMovesPerWork = 20;  // combinations of moves per unit of search/work.h
 constexpr std::int64_t kSettledPerPoll = 1024;
 
-// Reversed moves of an agent.
+// The reversed moves of an agent.
 class Backwards {
  public:
   explicit Backwards(const AgentGraph& graph) : first_(graph.count() + 1, 0) {
@@ -69,7 +69,7 @@ class Costs {
   Time operator[](std::size_t entry) const { return costs_[entry]; }
 
  private:
-  // Starts from all nodes where each member may rest, on distinct places.
+  // Starts from all joint nodes in which each member may rest, on distinct places.
   void begin(std::size_t member, std::size_t entry) {
     if (member == members_.size()) return reach(entry, 0);
     const AgentGraph& graph = *members_[member];

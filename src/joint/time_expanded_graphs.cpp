@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Forward pass, time by time. A node is a slot of safe_intervals.h (the state and all that
+// *Forward pass*, time by time. A node is a slot of safe_intervals.h (the state and everything that
 // constraints require of the past), a stage of sequence_stages.h, and a time. From a node the agent
-// may wait while the slot lasts, or move where a move arrives one step later. To rest is a
-// decision, possible wherever a slot permits resting for ever with no stop left. An agent that
-// could rest and waits pays for it, as in any agent graph. A deadline for coming to rest (kRestBy)
-// limits the cost where states are places; elsewhere the slots express it.
+// may wait while the slot lasts, or make a move that arrives one step later. To rest is a decision,
+// which is possible wherever a slot permits resting for ever with no stop left. An agent that could
+// rest but waits pays for the wait, as in any agent graph. Where states are places, a deadline for
+// coming to rest (kRestBy) limits the cost; elsewhere the slots express it.
 //
-// Claim: the paths of the graph to rest are exactly the paths that cost `max_cost` or less.
-// Proof: a node is dropped only if its distance to the end leads beyond `max_cost`. The cost-to-go
-// table is extended until it covers all sequences within the cost, so no stage of such a path is
-// unknown. A path that counts each stop as early as possible passes all stages that matter
-// (mdd.cpp).
+// *Claim: the paths of the graph that end at rest are exactly the paths that cost `max_cost` or
+// less.* *Proof.* A node is dropped only if its time plus its distance to the end exceeds
+// `max_cost`. The cost-to-go table is extended until it covers all sequences within this cost, so
+// no stage of such a path is unknown. A path that counts each stop as early as possible passes all
+// stages that matter (mdd.cpp).
 //
-// Backward pass: the earliest finish from each node, by falling time, because no move stays within
-// its own time. So the individual cost to go from a node is exact under the constraints.
+// *Backward pass.* The earliest finish from each node is computed by descending time, because every
+// move leads to a later time. So the individual cost to go from a node is exact under the
+// constraints.
 #include "joint/time_expanded_graphs.h"
 
 #include <algorithm>
@@ -44,7 +45,8 @@ TimeExpandedGraphs::Outcome TimeExpandedGraphs::make(SequenceStages& goals,
     return Outcome::kStopped;
   goals_ = &goals;
   max_cost_ = max_cost;
-  // One number for each node and each state to rest in; there are at most as many of the latter.
+  // Each node and each state at rest takes a number; there are at most as many states at rest as
+  // nodes.
   max_nodes = std::min(max_nodes, kMaxNumbers / 2);
   start();
   for (Index node = 0; node < std::ssize(nodes_); ++node, ++looked_at_) {
@@ -57,7 +59,7 @@ TimeExpandedGraphs::Outcome TimeExpandedGraphs::make(SequenceStages& goals,
   return Outcome::kMade;
 }
 
-// If the start may or may not count for a stop, it has two stages, but it is one node.
+// If the start can be counted as a stop or not, there are two stages at the start, but one node.
 void TimeExpandedGraphs::start() {
   nodes_.clear();
   moves_.clear();
@@ -120,8 +122,8 @@ void TimeExpandedGraphs::find_finishes() {
   }
 }
 
-// Omits the nodes from which the agent cannot come to rest. The start, if kept, keeps number 0.
-// Nodes at rest come last.
+// Omits the nodes from which the agent cannot come to rest. If the start is kept, it keeps number
+// 0. Nodes at rest come last.
 void TimeExpandedGraphs::write(AgentGraph& graph) const {
   using NodeId = AgentGraph::Node;
   if (nodes_.empty() || nodes_.front().finish == kNever) return;

@@ -15,8 +15,8 @@
 
 namespace grove::detail {
 
-// Makes agent graphs whose nodes have a time, except those at rest. The proof is at the head of
-// time_expanded_graphs.cpp. Reuses its workspace between calls. One thread at a time.
+// Makes agent graphs whose nodes have a time, except the nodes at rest. The proof is at the head of
+// time_expanded_graphs.cpp. Keeps its workspace between calls. One thread at a time.
 class TimeExpandedGraphs {
  public:
   enum class Outcome : std::uint8_t {
@@ -25,12 +25,12 @@ class TimeExpandedGraphs {
     kStopped,   // a limit was reached
   };
 
-  // `world` must outlive this.
+  // `world` must outlive this object.
   explicit TimeExpandedGraphs(const World& world);
 
   // Makes the graph of the paths that realize a sequence of the class of `goals`, satisfy
-  // `constraints` (none of them about the sequence), and cost at most `max_cost`. The graph has no
-  // node if there is no such path. Extends the cost-to-go table of `goals` as needed.
+  // `constraints` (none of them on the sequence) and cost at most `max_cost`. If there is no such
+  // path, the graph has no nodes. Extends the cost-to-go table of `goals` as needed.
   Outcome make(SequenceStages& goals, std::span<const Constraint> constraints, Time max_cost,
                std::size_t max_nodes, const Limits& limits, AgentGraph& graph);
   // Nodes expanded so far, over all calls.
@@ -44,7 +44,7 @@ class TimeExpandedGraphs {
     std::int32_t slot;
     StageId stage;
     Time time;
-    std::int32_t end_move = 0;  // in moves_; its moves begin at end_move of the previous node
+    std::int32_t end_move = 0;  // in moves_; its moves start at end_move of the previous node
     Time finish = kNever;       // earliest finish from here
   };
 
@@ -59,12 +59,12 @@ class TimeExpandedGraphs {
 
   const World& world_;
   SafeIntervals intervals_;
-  std::vector<Timed> nodes_;  // by time
-  std::vector<Index> moves_;  // target nodes
+  std::vector<Timed> nodes_;  // in order of time
+  std::vector<Index> moves_;  // target nodes, node after node
   std::vector<StageId> first_stages_;
   std::unordered_map<std::uint64_t, Index> next_;  // nodes of the next time, by slot and stage
   std::int64_t looked_at_ = 0;
-  // Of the current call.
+  // Arguments of the current call.
   SequenceStages* goals_ = nullptr;
   Time max_cost_ = 0;
 };

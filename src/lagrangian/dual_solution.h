@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Dual solution: the result of a round of the Lagrangian bound, for the primal search.
+// Dual solution: multipliers and subproblem values of one round of the Lagrangian bound, for the
+// primal search.
 #pragma once
 
 #include <numeric>
@@ -10,18 +11,18 @@
 
 namespace grove::detail {
 
-// Multipliers and the agents' subproblem values under them. The cost of a plan minus bound() is the
-// sum of its paths' penalised costs above their subproblem values, plus the multipliers of the rows
-// that it does not use. A value.
+// Multipliers, and the subproblem value of each agent under these multipliers. The cost of a plan
+// minus bound() is equal to the sum over its agents of (penalised cost of the path - subproblem
+// value), plus the sum of the multipliers of the rows that the plan does not use. A value type.
 struct DualSolution {
-  // Proven: no plan costs less.
+  // Lower bound on the cost of every plan, in the unit of ScaledCost.
   ScaledCost bound() const {
     return std::accumulate(values.begin(), values.end(), -multipliers.sum());
   }
 
   Multipliers multipliers;
-  std::vector<ScaledCost> values;  // subproblem values, by agent
-  std::vector<Path> paths;         // of these values; empty: no path is known
+  std::vector<ScaledCost> values;  // by agent: subproblem value
+  std::vector<Path> paths;         // by agent: the best path found; empty: none
 };
 
 }  // namespace grove::detail

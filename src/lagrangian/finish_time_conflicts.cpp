@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// *Claim: if for every a' <= a and b' <= b the MDDs of two agents for finish times exactly a' and
-// b' are dependent (joint_mdd_search.h: all pairs of their paths collide) or one of them is empty,
-// then no two paths of these agents that finish by a and by b are free of collisions.* *Proof.* A
-// path that finishes by a time finishes exactly at some time up to then. *Consequence.* No plan
-// contains such paths, whatever the other agents do. An MDD that was not built, because it is too
-// large or a limit was reached, proves nothing.
+// *Claim: suppose that for every a' <= a and b' <= b the MDDs of two agents for finish times
+// exactly a' and b' are dependent (joint_mdd_search.h: all pairs of their paths collide), or one of
+// them is empty. Then any two paths of these agents that finish by a and by b collide.* *Proof.* A
+// path that finishes by time a finishes exactly at some a' <= a, so it is in the MDD for a'. The
+// same holds for b. *Consequence.* No plan contains two such paths, whatever the other agents do.
+// If an MDD was not built, because it is too large or a limit was reached, nothing is proven.
 #include "lagrangian/finish_time_conflicts.h"
 
 #include "lagrangian/penalized_search.h"
@@ -12,7 +12,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kBytesOfNode = 24;  // about, with its edges
+constexpr std::size_t kBytesOfNode = 24;  // approximate size of an MDD node with its edges
 
 }  // namespace
 
@@ -50,7 +50,8 @@ FinishTimePair FinishTimeConflicts::extended(FinishTimePair pair, const Limits& 
   return pair;
 }
 
-// Tests the paths that finish exactly `later_a` and `later_b` steps after the least finish times.
+// Tests the paths that finish exactly `later_a` and `later_b` steps after OfAgent::least of their
+// agents.
 FinishTimeConflicts::Verdict FinishTimeConflicts::compared(const FinishTimePair& pair, Time later_a,
                                                            Time later_b, const Limits& limits) {
   const Mdd* const a = mdd(pair.a, later_a, limits);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pairs of finish times that two agents cannot both meet in any plan.
+// Proves that two agents cannot both finish by given times in any plan.
 #pragma once
 
 #include <array>
@@ -16,7 +16,8 @@
 
 namespace grove::detail {
 
-// Agent a finishes at finish_a or earlier, and agent b at finish_b or earlier.
+// The event that agent `a` finishes at time `finish_a` or earlier, and agent `b` at `finish_b` or
+// earlier.
 struct FinishTimePair {
   AgentIndex a = -1;
   AgentIndex b = -1;
@@ -24,42 +25,45 @@ struct FinishTimePair {
   Time finish_b = 0;
 };
 
-// Tests pairs of finish times by joint search of the MDDs of two agents, and caches the results.
-// The proof is at the head of the .cpp. One thread at a time.
+// Tests such events by a joint search over the MDDs of the two agents, and caches the results.
+// Proof: finish_time_conflicts.cpp. One thread at a time.
 class FinishTimeConflicts {
  public:
-  // Limits: nodes of one MDD, pairs of nodes of one joint search, bytes of all MDDs.
+  // Limits: number of nodes of an MDD, number of node pairs of a joint search, and total size of
+  // all MDDs in bytes.
   struct MaxSizes {
     std::size_t mdd_nodes;
     std::size_t joint_mdd_nodes;
     std::size_t bytes;
   };
 
-  // All references must outlive this.
+  // `world` and `stops` must outlive this object.
   FinishTimeConflicts(const World& world, AgentStopsCache& stops, MaxSizes max_sizes);
   ~FinishTimeConflicts();
 
-  // Returns true only if it is proven that no two paths without a collision finish by these times,
-  // and false if it is not proven within the limits.
+  // Returns true if it is proven that any two paths that finish by these times collide. Returns
+  // false if this is not proven, for example because a limit was reached.
   bool are_incompatible(const FinishTimePair& pair, const Limits& limits);
-  // Raises the finish times of an incompatible pair while it stays proven incompatible. Afterwards
-  // neither can be a step later.
+  // Raises the finish times of an incompatible pair, one step at a time, as long as
+  // are_incompatible() remains true. Afterwards are_incompatible() is false if either time is one
+  // step later.
   FinishTimePair extended(FinishTimePair pair, const Limits& limits);
 
-  // Nodes of MDDs and pairs of nodes examined so far.
+  // Effort so far: the number of MDD nodes built, plus the number of node pairs examined.
   std::int64_t work() const { return builder_.nodes() + dependency_.pairs(); }
 
  private:
-  enum class Verdict : std::uint8_t { kUnknown, kExcluded, kNotExcluded };  // 0 first: see Grid
+  enum class Verdict : std::uint8_t { kUnknown, kExcluded, kNotExcluded };  // new entries: kUnknown
   struct OfAgent {
     std::unique_ptr<SequenceStages> goals;
-    Time earliest = 0;  // earliest finish, or a lower bound on it
-    // MDDs by cost - least. nullptr: not built within the limits. Empty: no path finishes exactly
-    // then.
+    Time earliest = 0;  // a lower bound on the finish time
+    // By finish time - least: the MDD; nullptr if it could not be built within the limits; empty if
+    // no path finishes exactly at that time.
     std::vector<std::unique_ptr<Mdd>> mdds;
   };
 
-  static constexpr Time kGrid = 16;  // number of finish times examined, from least on
+  static constexpr Time kGrid =
+      16;  // number of finish times examined per agent, from `earliest` on
   using Grid = std::array<Verdict, kGrid * kGrid>;
 
   Verdict compared(const FinishTimePair& pair, Time later_a, Time later_b, const Limits& limits);
@@ -72,7 +76,7 @@ class FinishTimeConflicts {
   MddBuilder builder_;
   JointMddSearch dependency_;
   std::vector<OfAgent> agents_;
-  std::unordered_map<std::uint64_t, Grid> known_;  // by pair
+  std::unordered_map<std::uint64_t, Grid> known_;  // by pair of agents
   std::size_t bytes_ = 0;
 };
 

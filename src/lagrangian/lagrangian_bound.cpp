@@ -1,28 +1,30 @@
 // SPDX-License-Identifier: MIT
-// *Claim: for any multipliers y >= 0, the sum of subproblem values minus the sum of multipliers is
-// a lower bound on every plan.* A subproblem value of an agent is a lower bound on the penalised
-// cost of each of its paths: cost plus the multipliers of the rows that the path uses. *Proof.*
-// Take a plan. Each row is used at most once (relaxed_rows.cpp). Summed over all agents,
+// *Claim: for any multipliers y >= 0, the sum of the subproblem values minus the sum of the
+// multipliers is a lower bound on the cost of every plan.* Here the penalised cost of a path is its
+// cost plus the multipliers of the rows that it uses, and the subproblem value of an agent is a
+// lower bound on the penalised costs of all its paths. *Proof.* A plan uses each row at most once
+// (relaxed_rows.cpp). Summing over all agents,
 //
 //   sum of values <= sum of costs + sum over rows of y * uses <= cost of the plan + sum of y.
 //
 // *Rounding.* All numbers are integers in units of 1 / kUnit step. The cost of a plan is a whole
-// number of steps, so the bound may be rounded up.
+// number of steps, so the bound can be rounded up.
 //
-// *Conditions.* A value need not be exact, as long as no path costs less (penalized_search.cpp).
-// All values in the sum must have been computed under the same multipliers, so multipliers are
-// moved only when no job is in progress.
+// *Conditions.* A value need not be exact; it suffices that no path has a lower penalised cost
+// (penalized_search.cpp). All values in the sum must have been computed under the same multipliers.
+// Therefore the multipliers are updated only between rounds, while no values are being computed.
 //
-// *Helpers*, in other processes, have copies of the multipliers. An answer names its multipliers by
-// their digest (multipliers.h). It counts only if the digest is the current one and the round still
-// lacks these values. So, except with probability 2^-64 (equal digests), neither the delay of an
-// answer nor what was sent to a helper affects the validity of the bound. The cost of a known path
-// that is sent to a helper only ends its search earlier, at a value that is not above that cost. No
-// thread waits for a helper: when all other values are there, the missing ones are computed here.
+// *Helpers*, which are other processes, have copies of the multipliers. A reply identifies its
+// multipliers by their digest (multipliers.h). A value is used only if the digest is the current
+// one and the agent has no value in this round yet. Therefore, except with probability 2^-64 (equal
+// digests of different multipliers), neither delays nor the contents of requests affect the
+// validity of the bound. A request contains the cost of a known path as the cutoff of the search,
+// so that the value does not exceed that cost. No thread waits for a helper: when all other values
+// are available, this process computes the missing ones.
 //
-// *Step.* See target_level_step.h for the step length. The direction is a subgradient: the uses of
-// each row by the cheapest paths, minus 1. It is smoothed over rounds, because a single subgradient
-// does not take account of the previous step.
+// *Step.* See target_level_step.h for the step length. The subgradient of a row is the number of
+// its uses by the cheapest paths, minus 1. The direction is a subgradient that is smoothed over
+// rounds, because consecutive subgradients tend to cancel each other.
 #include "lagrangian/lagrangian_bound.h"
 
 #include <algorithm>
@@ -35,11 +37,11 @@ namespace grove::detail {
 namespace {
 
 constexpr int kMaxStops = 10;
-constexpr std::size_t kMaxMarkBytes = std::size_t{1} << 26;  // marks of one agent's search
+constexpr std::size_t kMaxMarkBytes = std::size_t{1} << 26;  // of one agent's search
 constexpr std::size_t kBytesOfMark = 16;
-constexpr std::int64_t kFirstLabels = 2000;  // expected labels of an agent before its first job
-constexpr std::int64_t kStepsPerWork = 32;   // path steps counted per unit of work
-constexpr int kRoundsPerDualSolution = 4;    // rounds so far per round until the next dual solution
+constexpr std::int64_t kFirstLabels = 2000;               // per agent, assumed before its first job
+constexpr std::int64_t kStepsPerWork = 32;                // path steps counted per unit of work
+constexpr int kRoundsPerDualSolution = 4;                 // see store_dual_solution()
 constexpr double kMinDistance = 0.02 * Penalties::kUnit;  // shorter ways gain nothing
 
 }  // namespace
@@ -123,7 +125,7 @@ void LagrangianBound::perform(Job& job, Pricer& pricer, Cost cutoff, Cost known,
     do_perform(job, pricer, cutoff, known, limits);
   } catch (const std::bad_alloc&) {
     job.failed = true;
-  } catch (const std::overflow_error&) {  // a penalty is too great
+  } catch (const std::overflow_error&) {  // a penalty exceeds its maximum
     job.failed = true;
   }
 }
@@ -136,7 +138,8 @@ void LagrangianBound::do_perform(Job& job, Pricer& pricer, Cost cutoff, Cost kno
   pricer.perform(job, limits);
 }
 
-// Penalised cost of the agent's current path under the multipliers of this round; kNoCost: no path.
+// The penalised cost of the agent's best known path under the current multipliers; kNoCost if no
+// path is known.
 ScaledCost LagrangianBound::known_value(AgentIndex agent) const {
   return paths_[agent].empty() ? kNoCost : multipliers().price(agent, paths_[agent]);
 }
@@ -159,7 +162,8 @@ void LagrangianBound::commit(Job job) {
   end_pricing_if_done();
 }
 
-// Stores a value unless the agent has one: a helper and a thread here may compute the same one.
+// Stores a value unless the agent already has one, because a helper and a thread of this process
+// may both compute it. Returns true if it was stored.
 bool LagrangianBound::store_value(AgentIndex agent, ScaledCost price, Path path) {
   if (is_priced_[agent]) return false;
   is_priced_[agent] = 1;
@@ -187,8 +191,8 @@ void LagrangianBound::note_best_multipliers() {
       best_multipliers_.push_back({multipliers().row(id), multipliers().multiplier(id)});
 }
 
-// The round cannot end in the meantime, because no thread and no helper has been given these agents
-// yet. So the multipliers do not change.
+// The multipliers do not change during this function: the round cannot end, because the agents of
+// the new requests have no values and are not assigned to another job or helper.
 std::vector<LagrangianBound::DispatchedRequest> LagrangianBound::dispatch_pricing() {
   const std::vector<AgentRange> cuts = partition_agents();
   std::vector<DispatchedRequest> requests;
@@ -209,9 +213,10 @@ std::vector<LagrangianBound::DispatchedRequest> LagrangianBound::dispatch_pricin
   return requests;
 }
 
-// Balances the expected work between helpers and this process. It counts the work between two
-// rounds, which is done only here. No helper gets less work than a message is worth
-// (lagrangian_min_remote_work).
+// Balances the expected work between helpers and this process. The share of this process includes
+// the work between two rounds, which helpers cannot do. Each helper's share is at least
+// lagrangian_min_remote_work, unless agents run out, because a smaller share does not justify a
+// message.
 std::vector<LagrangianBound::AgentRange> LagrangianBound::partition_agents() {
   const std::lock_guard lock(mutex_);
   std::vector<AgentRange> cuts;
@@ -233,8 +238,8 @@ std::vector<LagrangianBound::AgentRange> LagrangianBound::partition_agents() {
   return cuts;
 }
 
-// Expected work of the agents that are not yet in a job or request, by the labels of their last
-// jobs.
+// The expected work of the agents that are not in a job or request yet, from the numbers of labels
+// of their last jobs.
 std::int64_t LagrangianBound::work_left() const {
   return std::accumulate(labels_.begin() + next_agent_, labels_.begin() + end_agent_,
                          std::int64_t{0}) /
@@ -261,7 +266,7 @@ int LagrangianBound::accept(int helper, PricingReply answer) {
   return counted;
 }
 
-// Runs over several jobs, because testing a pair is expensive.
+// One job performs a part of this, because testing a pair of finish times is expensive.
 void LagrangianBound::end_round(Job& job, Cost cutoff, Cost known, const Limits& limits) {
   if (!is_counted_) {
     separate_conflict_rows();
@@ -296,7 +301,8 @@ void LagrangianBound::separate_finish_rows(Job& job, const Limits& limits) {
   job.work += pairs_.work() - begin;
 }
 
-// Rounds between two dual solutions increase, because the bound improves more and more slowly.
+// After a dual solution, 1 / kRoundsPerDualSolution of the rounds so far pass before the next one,
+// because the bound improves more and more slowly.
 void LagrangianBound::store_dual_solution(ScaledCost bound) {
   {
     const std::lock_guard lock(mutex_);

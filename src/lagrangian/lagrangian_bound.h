@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lagrangian bound: a lower bound on every plan, from multipliers on collision constraints.
+// Lagrangian bound: a lower bound on the cost of every plan, from a relaxation of the collision
+// constraints.
 #pragma once
 
 #include <cstdint>
@@ -19,64 +20,68 @@
 
 namespace grove::detail {
 
-// Lagrangian relaxation of the root problem (no constraints of the tree). Works in rounds of jobs.
-// In a round each agent's subproblem value is computed, by any number of threads and by helpers,
-// which are other processes. Then the multipliers are moved. The result depends neither on timing
-// nor on the order in which jobs end. Thread-safe, except that one thread calls the methods about
-// helpers.
+// Lagrangian relaxation of the root problem, without constraints of the constraint tree. Proceeds
+// in rounds. In each round, threads of this process and *helpers* (other processes) compute the
+// subproblem value of each agent; then one thread updates the multipliers. next(), has_jobs(),
+// perform(), commit(), ended(), lower_bound(), rounds() and dual_solution() are thread-safe. The
+// methods for helpers are called by one thread at a time.
 class LagrangianBound {
  public:
-  // Returns nullptr if an agent has too many stops: the search keeps a mark per state and subset of
-  // stops. `instance` and `tuning` must outlive the bound; it copies `stops`.
+  // Returns nullptr if an agent has too many stops, because its search stores a mark for each state
+  // and each subset of stops. `instance` and `tuning` must outlive the result; `stops` is copied.
   static std::unique_ptr<LagrangianBound> make(const Instance& instance,
                                                const AgentStopsCache& stops, const Tuning& tuning);
 
-  // A unit of work: the subproblem values of several agents or, if it has no agents, a part of the
-  // work between two rounds.
+  // A unit of work: the subproblem values of some agents or, if the range of agents is empty, a
+  // part of the computation between two rounds.
   using Job = PricingJob;
-  // The next job. Returns nullopt if all jobs are in progress or the bound has ended. The caller
-  // must perform() and commit() the job.
+  // Returns the next job, which the caller must perform() and then commit(). Returns nullopt if no
+  // job is available now or the bound has ended.
   std::optional<Job> next();
   bool has_jobs() const;
   // Performs a job. `cutoff`: plans of this cost or more are of no interest. `known`: a proven
-  // lower bound on every plan. If memory is refused the bound ends and keeps its value.
+  // lower bound on every plan. If memory runs out, the bound ends when the job is committed, and
+  // lower_bound() keeps its value.
   void perform(Job& job, Pricer& pricer, Cost cutoff, Cost known, const Limits& limits);
   void commit(Job job);
 
   // Sets the number of helpers, which are numbered from 0.
   void set_helpers(int count) { helpers_.resize(static_cast<std::size_t>(count)); }
-  // Pricing requests for the helpers that have answered their last one, if there is enough work.
+  // A pricing request for a helper.
   struct DispatchedRequest {
     int helper;
-    std::int64_t work;  // expected
+    std::int64_t work;  // expected effort, in the unit of search/work.h
     PricingRequest request;
   };
+  // Returns pricing requests for helpers without an outstanding request. Returns none if there is
+  // too little work left in this round. The caller must send them.
   std::vector<DispatchedRequest> dispatch_pricing();
-  // Processes a helper's answer. A value counts only if round and multipliers are still those of
-  // the request and the agent has no value yet. Returns the number of values that counted. Throws
+  // Processes a helper's reply. Uses a value only if the round and the multipliers are still those
+  // of the request and the agent has no value yet. Returns the number of values used. Throws
   // std::invalid_argument if the agents were not requested.
   int accept(int helper, PricingReply answer);
 
-  // Records from now on the multipliers that prove lower_bound().
+  // From now on, records the multipliers that prove lower_bound(). Call it before the first job.
   void record_best_multipliers() { records_best_multipliers_ = true; }
-  // The recorded multipliers, those > 0. Call it only when no job is in progress.
+  // The recorded multipliers that are > 0, with their rows. Call it only while no job is in
+  // progress.
   const std::vector<RowMultiplier>& best_multipliers() const { return best_multipliers_; }
 
-  // Whether the bound has ended: it has no more jobs.
+  // True if the bound has ended: next() returns no more jobs.
   bool ended() const;
-  // Proven: no plan costs less.
+  // The proven lower bound on the cost of every plan.
   Cost lower_bound() const;
   int rounds() const;
   const Multipliers& multipliers() const { return rows_.multipliers(); }
-  // The dual solution of a round with the best bound so far; nullptr: none yet. It is replaced now
-  // and then, when a job is committed.
+  // The dual solution of a round whose bound was the best until then. Returns nullptr if there is
+  // none yet. It is not updated in every round.
   std::shared_ptr<const DualSolution> dual_solution() const;
 
  private:
   enum class Phase : std::uint8_t { kPricing, kBetween, kEnded };
 
   LagrangianBound(const Instance& instance, const AgentStopsCache& stops, const Tuning& tuning);
-  // Consecutive agents for one helper.
+  // The agents `first`, ..., `end` - 1, for one helper.
   struct AgentRange {
     int helper;
     AgentIndex first;
@@ -84,8 +89,8 @@ class LagrangianBound {
     std::int64_t work;  // expected
   };
   struct Helper {
-    std::vector<Multipliers::Amount> multipliers;  // by row: the multipliers that it has received
-    bool is_awaiting_reply = false;                // an answer is outstanding
+    std::vector<Multipliers::Amount> multipliers;  // by row: the multiplier that was sent last
+    bool is_awaiting_reply = false;                // its reply is outstanding
   };
 
   void begin_pricing();
@@ -110,35 +115,34 @@ class LagrangianBound {
   OccupancyCounts occupancy_;
   FinishTimeConflicts pairs_;
   TargetLevelStep ascent_;
-  std::vector<Path> paths_;                // by agent: path of its subproblem value
+  std::vector<Path> paths_;                // by agent: the best path found; empty: none
   std::vector<ScaledCost> prices_;         // by agent
-  std::vector<std::int64_t> labels_;       // by agent: mean of its last job
-  std::vector<FinishTimePair> colliding_;  // pairs still to be tested in this round
-  bool is_counted_ = false;                // occupancy_ is of this round
-  std::int64_t next_dual_solution_round_;  // round of the next dual solution, at the earliest
+  std::vector<std::int64_t> labels_;       // by agent: labels per agent in its last job
+  std::vector<FinishTimePair> colliding_;  // events still to be tested in this round
+  bool is_counted_ = false;                // occupancy_ contains the paths of this round
+  std::int64_t next_dual_solution_round_;  // first round that may store the next dual solution
   std::shared_ptr<const DualSolution> new_dual_solution_;
-  std::vector<Helper> helpers_;  // used only by the thread that calls the methods about helpers
+  std::vector<Helper> helpers_;  // used only by the thread that calls the methods for helpers
   bool records_best_multipliers_ = false;
 
-  mutable std::mutex mutex_;  // guards:
+  mutable std::mutex mutex_;  // guards the members below
   Phase phase_ = Phase::kPricing;
   int in_progress_ = 0;  // jobs in progress
   int rounds_ = 0;
   ScaledCost best_ = 0;
-  std::vector<RowMultiplier>
-      best_multipliers_;  // multipliers that prove best_, if they are recorded
+  std::vector<RowMultiplier> best_multipliers_;  // recorded multipliers that prove best_
   std::shared_ptr<const DualSolution> dual_solution_;
-  // Agents are priced here in ascending order, and helpers are asked for the last ones. When no
-  // other agents are left, those requested but not yet answered are priced here too, in descending
-  // order.
+  // This process computes subproblem values in ascending order of agents, and requests values of
+  // the last agents from helpers. When only requested agents are left, it computes their
+  // outstanding values as well, in descending order.
   AgentIndex next_agent_ = 0;
-  AgentIndex end_agent_ = 0;             // agents from here on are for helpers
-  AgentIndex asked_ = 0;                 // agents from here on were requested from helpers
-  AgentIndex taken_over_ = 0;            // requested agents from here on are priced here too
+  AgentIndex end_agent_ = 0;             // agents from this one on are assigned to helpers
+  AgentIndex asked_ = 0;                 // agents from this one on were requested from helpers
+  AgentIndex taken_over_ = 0;            // requested agents from this one on are computed here, too
   std::vector<std::uint8_t> is_priced_;  // by agent
-  std::vector<ScaledCost> known_;  // by agent: the cost of a known path that was sent to the helper
+  std::vector<ScaledCost> known_;        // by agent: cost of a known path, as sent to a helper
   int unpriced_ = 0;
-  std::int64_t work_between_ = 0;  // work of the jobs between the last two rounds
+  std::int64_t work_between_ = 0;  // work of the jobs after the last round
 };
 
 }  // namespace grove::detail

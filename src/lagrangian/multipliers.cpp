@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The digest is the sum, modulo 2^64, of each multiplier times a hash of its row. So it can be
-// updated with each change of a multiplier, and depends neither on the order of the changes nor on
-// the numbering of the rows.
+// The digest is the sum over all rows, modulo 2^64, of the multiplier times a hash of the row.
+// Therefore it can be updated in O(1) when a multiplier changes, and it depends neither on the
+// order of the changes nor on the numbering of the rows.
 #include "lagrangian/multipliers.h"
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 namespace grove::detail {
 namespace {
 
-constexpr Time kMaxTime = 1 << 24;  // limit of the times of a row; real ones are far below
+constexpr Time kMaxTime = 1 << 24;  // limit on the times of a row; actual times are far below
 
-// As in SplitMix64.
+// The output function of SplitMix64.
 std::uint64_t mix(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
@@ -27,7 +27,8 @@ std::uint64_t number_of(const RelaxedRow& row) {
   return number | 1;
 }
 
-// Varint encoding: seven bits per byte, lowest bits first; bit 8 is set if more bytes follow.
+// Varint encoding: seven bits per byte, lowest bits first. The highest bit of a byte is set if more
+// bytes follow.
 void write(std::string& to, std::uint32_t number) {
   for (; number >= 0x80; number >>= 7) to.push_back(static_cast<char>(number | 0x80));
   to.push_back(static_cast<char>(number));
@@ -44,7 +45,7 @@ std::uint32_t read(const std::string& from, std::size_t& at) {
   throw std::invalid_argument("multipliers: update is cut short");
 }
 
-// Zigzag encoding: small numbers for small amounts of either sign.
+// Zigzag encoding: maps amounts of small absolute value to small unsigned numbers.
 std::uint32_t folded(std::int32_t amount) {
   return (static_cast<std::uint32_t>(amount) << 1) ^ static_cast<std::uint32_t>(amount >> 31);
 }

@@ -20,7 +20,7 @@ void OccupancyCounts::count(std::span<const Path> paths) {
 
 std::vector<Collision> OccupancyCounts::collisions() const {
   std::vector<Collision> found;
-  std::unordered_map<std::uint64_t, AgentIndex> met;  // last agent there
+  std::unordered_map<std::uint64_t, AgentIndex> met;  // by move: agent for the next collision
   const auto move = [&](Place from, Place to) {
     return static_cast<std::uint64_t>(from) << 32 | static_cast<std::uint32_t>(to);
   };

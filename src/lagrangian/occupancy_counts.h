@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Occupancy of places over time, and collisions, of one path per agent.
+// Counts agents by place and time, and finds collisions, for one path per agent.
 #pragma once
 
 #include <cstdint>
@@ -10,33 +10,33 @@
 
 namespace grove::detail {
 
-// A collision of two agents: both are on one place, or they swap places.
+// A collision of two agents, which are on one place or swap places.
 struct Collision {
   AgentIndex a;
   AgentIndex b;
-  Time time;     // when both are on the place, or arrive by the swap
+  Time time;     // at which both are on the place, or complete the swap
   Place place;   // the place, or the place to which `a` moves
-  Place before;  // the place from which `a` moves, if it is a swap; else kNoPlace
+  Place before;  // for a swap: the place from which `a` moves; else kNoPlace
 };
 
-// Counts agents by place and time until all are at rest. Agents at rest count. One thread at a
-// time.
+// The number of agents on each place at each time, including agents at rest. One thread at a time.
 class OccupancyCounts {
  public:
-  // `world` must outlive this.
+  // `world` must outlive this object.
   explicit OccupancyCounts(const World& world) : world_(world) {}
 
-  // Replaces the counts. `paths`, by agent, empty for an agent without one, must stay unchanged
-  // while this is used.
+  // Replaces the counts by those of `paths`, which has one path per agent; an empty path is not
+  // counted. `paths` must remain unchanged until the last call of collisions().
   void count(std::span<const Path> paths);
 
-  // All agents are at rest from this time on.
+  // A time >= 1 from which all agents are at rest: the maximum number of states of a path.
   Time end() const { return end_; }
   int at(Place place, Time time) const {
     return time < end_ ? counts_[index(place, time)] : counts_[index(place, end_ - 1)];
   }
-  // At each time from 1 on: for each place with several agents, each agent but the first paired
-  // with the previous one; and all swaps. The order depends only on the paths.
+  // The collisions at each time >= 1. On a place with several agents, each agent forms a collision
+  // with the agent of next lower index there. An agent that swaps places with agents of lower index
+  // forms a collision with the lowest of these. The order of the result depends only on the paths.
   std::vector<Collision> collisions() const;
 
  private:
@@ -48,7 +48,7 @@ class OccupancyCounts {
   const World& world_;
   std::span<const Path> paths_;
   Time end_ = 1;
-  std::vector<std::uint16_t> counts_;  // by time, then place
+  std::vector<std::uint16_t> counts_;  // by time and place
 };
 
 }  // namespace grove::detail

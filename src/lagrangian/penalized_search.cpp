@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
-// *Search.* Layer by layer in time, because a later arrival may be cheaper than an earlier one:
-// waiting costs. A label is a state and a stage (sequence_stages.h) at a time, with the cost paid
-// so far. Two paths to one label have the same future, so only the cheaper one is kept.
+// *Search.* The search proceeds layer by layer in time, because with penalties a later arrival can
+// lead to a cheaper path than an earlier one. A label has a time, a state, a stage
+// (sequence_stages.h) and the cost paid so far. Of two labels that differ only in the cost paid,
+// only the cheaper one is kept, because both have the same completions.
 //
-// *Pruning.* The cost still to come is at least one unit for each step of the distance, because
-// penalties are nonnegative, plus the least penalty of coming to rest then or later, where each
-// step of delay costs a unit. A label is dropped if this bound reaches the cutoff. The search ends,
-// since the cost rises by at least a unit per layer.
+// *Pruning.* Since penalties are nonnegative, the remaining cost of a label is at least kUnit for
+// each step of its distance, plus the minimum penalty of coming to rest at the resulting time or
+// later, where each step of delay costs kUnit. A label is dropped if the cost paid plus this bound
+// reaches the cutoff. The search terminates because the cost rises by at least kUnit per layer.
 //
-// *Bound.* A path outside the sequences stored in the costs to go costs at least outside_bound()
-// steps, so the result never exceeds that. If labels or time run out, the result does not exceed
-// the least bound of a label in the last complete layer either: every path not yet seen passes
-// through that layer.
+// *Bound.* A path whose sequence is not in the cost-to-go store costs at least outside_bound()
+// steps, therefore the result never exceeds outside_bound(). If the search stops at a limit, the
+// result is the minimum of the cutoff and of the bounds of all labels in the last complete layer,
+// because every path that was not completed passes through that layer.
 #include "lagrangian/penalized_search.h"
 
 #include <algorithm>
@@ -79,9 +80,9 @@ bool PenalizedSearch::improve(SequenceStages& goals, std::span<const Amount> on_
   return true;
 }
 
-// Computes end_bounds_: by time, the least penalty of coming to rest then or later, plus a unit for
-// each step of delay. If the agent may rest on several places, the penalties of these places are
-// left out.
+// Computes end_bounds_: by time, the minimum penalty of coming to rest at that time or later, where
+// each step of delay adds kUnit. If the agent may rest on several places, the penalties of resting
+// on them are omitted.
 void PenalizedSearch::compute_end_bounds() {
   const AgentStops& stops = goals_->stops();
   const auto finishes = static_cast<Time>(on_finish_.size());
@@ -105,7 +106,7 @@ void PenalizedSearch::start() {
 
 void PenalizedSearch::expand(std::uint32_t at) {
   const Label label = labels_[at];  // a copy, because labels_ grows
-  // A cheaper path was found since the label was created.
+  // Prunes the label if a cheaper path was found since it was created.
   if (label.paid + to_pay(label.distance, time_ - 1) >= below_) return;
   const Place place = world_.place(label.state);
   if (may_arrive(place, place))
@@ -121,13 +122,13 @@ void PenalizedSearch::expand(std::uint32_t at) {
   }
 }
 
-// Creates a label for an arrival by a move, where the agent may come to rest.
+// Creates a label for an arrival by a move. The agent may come to rest with it.
 void PenalizedSearch::arrive(std::uint32_t from, State state, StageId stage, Amount paid) {
   if (reach(from, state, stage, paid) == 0) rest_at({state, stage, paid, 0, from});
 }
 
-// Creates or improves the label of a state and stage in this layer. Returns the distance from there
-// to a place of rest, or kNever if the label is dropped.
+// Creates or improves the label of a state and stage at time_. Returns the distance from there to a
+// state of rest, or kNever if the label is dropped.
 Time PenalizedSearch::reach(std::uint32_t from, State state, StageId stage, Amount paid) {
   if (static_cast<std::size_t>(stage) >= marks_.size())
     marks_.resize(static_cast<std::size_t>(stage) + 1);
@@ -149,7 +150,7 @@ Time PenalizedSearch::reach(std::uint32_t from, State state, StageId stage, Amou
   return mark.distance;
 }
 
-// Stores a complete path if it is the cheapest so far.
+// Stores the end of a complete path if the path is the cheapest so far.
 void PenalizedSearch::rest_at(const Label& label) {
   if (!goals_->is_rest(goals_->stage(label.stage), label.state)) return;
   if (others_ != nullptr && !others_->may_rest_from(world_.place(label.state), time_)) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Subproblem of the Lagrangian relaxation: least penalised cost of a path of one agent.
+// Subproblem of the Lagrangian relaxation: the least penalised cost of a path of one agent.
 #pragma once
 
 #include <algorithm>
@@ -17,36 +17,38 @@
 
 namespace grove::detail {
 
-// In units of 1 / Penalties::kUnit step.
+// A cost in units of 1 / Penalties::kUnit step.
 using ScaledCost = std::int64_t;
 constexpr ScaledCost kNoCost = -1;  // no cost is known
 
 // Finds a path of least penalised cost of one agent, over all orders of its stops. The penalised
-// cost is the cost, plus the penalties of its steps and of its rest for ever, plus one on its
-// finish time. One thread at a time; reuse it, because it holds the workspace.
+// cost of a path is its cost, plus the penalties of its steps, of its steps at rest afterwards, and
+// of its finish time. Holds the workspace of the search, so reuse it. One thread at a time.
 class PenalizedSearch {
  public:
   static constexpr ScaledCost kMaxPenaltyCost = ScaledCost{1} << 30;
 
-  // `penalties` must outlive this, and may change between searches.
+  // `penalties` must outlive this object, and may change between searches.
   explicit PenalizedSearch(const Penalties& penalties);
 
-  // Returns a proven lower bound on the penalised cost of every path, at most `below`. `on_finish`:
-  // the penalty by finish time, 0 beyond its end. If the search ends within the label limit and
-  // `limits`, and finds a path below the cutoff, the bound is exact and `*path` (unless `path` is
-  // nullptr) becomes such a path; else it is unchanged. The cutoff is the least of `below`,
-  // kMaxPenaltyCost, and outside_bound() of the costs to go.
+  // Returns min(the least penalised cost of a path, cutoff), where the cutoff is the minimum of
+  // `below`, kMaxPenaltyCost and the cost of goals.cost_to_go().outside_bound() steps. If the
+  // search stops at `label_limit` or `limits`, the result is only a lower bound on this value. If
+  // the search completes with a path below the cutoff, `*path` is set to an optimal path (unless
+  // `path` is nullptr); otherwise it is unchanged. `on_finish`: penalty by finish time; 0 for times
+  // from its end on.
   ScaledCost search(SequenceStages& goals, std::span<const Penalties::Amount> on_finish,
                     ScaledCost below, std::int64_t label_limit, const Limits& limits, Path* path);
 
-  // Replaces `path`, whose penalised cost is `price`, by a path of least penalised cost among those
-  // that go around `others` and finish by `latest`. `path` must do so too. Returns false, with
-  // `path` unchanged, if the search ends at a limit or finds no path of lower penalised cost.
+  // Replaces `path`, whose penalised cost is `price`, by a path of least penalised cost among the
+  // paths that avoid the reservations `others` and finish at time `latest` or earlier.
+  // Precondition: `path` is one of these paths. Returns false, with `path` unchanged, if the search
+  // stops at a limit or finds no path of lower penalised cost.
   bool improve(SequenceStages& goals, std::span<const Penalties::Amount> on_finish,
                const ReservationTable& others, Time latest, ScaledCost price,
                std::int64_t label_limit, const Limits& limits, Path& path);
 
-  // Labels created so far.
+  // The number of labels created by all searches so far.
   std::int64_t labels() const { return labels_created_; }
 
  private:
@@ -58,7 +60,7 @@ class PenalizedSearch {
     State state;
     StageId stage;
     Amount paid;
-    Time distance;  // to a place of rest, ignoring other agents
+    Time distance;  // to a state of rest, without regard to other agents
     std::uint32_t parent;
   };
   struct Mark {
@@ -73,7 +75,7 @@ class PenalizedSearch {
   }
   void compute_end_bounds();
   void start();
-  // Lower bound on the penalised cost still to come, `distance` steps from rest at `time`.
+  // Lower bound on the remaining penalised cost at `time`, at least `distance` steps before rest.
   ScaledCost to_pay(Time distance, Time time) const {
     const auto end = static_cast<std::size_t>(time) + static_cast<std::size_t>(distance);
     return ScaledCost{distance} * Penalties::kUnit +
@@ -90,24 +92,25 @@ class PenalizedSearch {
   const World& world_;
   std::vector<std::vector<Mark>> marks_;  // by stage, then state
   std::uint32_t stamp_ = 0;
-  std::vector<Label> labels_;                                 // layer by layer in time
-  std::vector<std::pair<Place, std::vector<Amount>>> rests_;  // penalty by first time of rest
+  std::vector<Label> labels_;                                 // in ascending order of time
+  std::vector<std::pair<Place, std::vector<Amount>>> rests_;  // penalty by time of arrival for rest
   std::vector<Amount> end_bounds_;                            // see compute_end_bounds()
   std::int64_t labels_created_ = 0;
 
   // Data of the current call.
   SequenceStages* goals_ = nullptr;
   std::span<const Amount> on_finish_;
-  Time time_ = 0;           // of the labels that are created
-  Penalties::Layer layer_;  // penalties at that time
+  Time time_ = 0;           // time of the labels being created
+  Penalties::Layer layer_;  // penalties for arrivals at time_
   ScaledCost below_ = 0;
   std::optional<Label> best_;
   const ReservationTable* others_ = nullptr;  // nullptr: no other agents
   Time latest_ = kNever;
 };
 
-// The least cost of a path of the agent; only a lower bound if a limit was reached. Widens the
-// costs to go until they contain a sequence of that cost.
+// The least cost of a path of the agent, in steps, without penalties and other agents; only a lower
+// bound if a limit was reached. Extends the agent's cost-to-go store until it contains a sequence
+// of that cost.
 Time min_cost(SequenceStages& goals, const Limits& limits);
 
 }  // namespace grove::detail

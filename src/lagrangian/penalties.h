@@ -11,24 +11,24 @@
 
 namespace grove::detail {
 
-// Penalties by arrival time and *arc*. An arc is a pair of neighbouring places, or a place on which
-// the agent stays. Amounts are integers >= 0; kUnit is the cost of one step. Memory grows with the
-// number of penalised arcs and times, in pages of kOnPage arcs. One thread at a time while it is
-// changed; otherwise any thread may read it.
+// Penalties by arrival time and *arc*. An arc is an ordered pair of neighbouring places, or a place
+// on which an agent stays. Amounts are integers >= 0; kUnit is the cost of one step. Memory is
+// allocated in pages of kOnPage arcs at one time. While one thread changes the object, no other
+// thread may use it; otherwise any thread may read it.
 class Penalties {
  public:
   using Amount = std::int32_t;
   using Arc = std::int32_t;
   static constexpr Amount kUnit = 1 << 10;
 
-  // `world` must outlive this.
+  // `world` must outlive this object.
   explicit Penalties(const World& world);
 
   const World& world() const { return world_; }
   Arc staying(Place place) const { return first_arc_[place]; }
-  // `to` is `from` itself or a neighbour.
+  // Precondition: `to` is `from` or a neighbour of it.
   Arc arc(Place from, Place to) const;
-  // The arcs of the moves of a state, in the order of the moves.
+  // The arcs of the moves from a state, in the order of World::moves().
   std::span<const Arc> arcs(State state) const {
     const std::span<const State> moves = world_.moves(state);
     return {arc_of_move_.data() + (moves.data() - first_move_), moves.size()};
@@ -36,7 +36,7 @@ class Penalties {
   // All arcs that lead to a place, including staying(place).
   std::span<const Arc> arcs_to(Place place) const { return arcs_to_[place]; }
 
-  // The penalties of one arrival time.
+  // The penalties for one arrival time, by arc.
   class Layer {
    public:
     Amount operator[](Arc arc) const {
@@ -50,7 +50,7 @@ class Penalties {
     const std::uint32_t* pages_of_arcs_ = nullptr;  // nullptr: no penalties
     const Amount* amounts_ = nullptr;
   };
-  // Valid until the next add().
+  // The penalties for arrival at time `arrival`. The result is valid until the next add().
   Layer at(Time arrival) const {
     Layer layer;
     if (arrival >= end()) return layer;
@@ -59,9 +59,10 @@ class Penalties {
     return layer;
   }
   Amount of(Time arrival, Arc arc) const { return at(arrival)[arc]; }
-  // Adds to a penalty. Throws std::overflow_error if the penalty would exceed kMaxPenalty.
+  // Adds `amount`, which may be negative, to a penalty. Precondition: the sum is >= 0. Throws
+  // std::overflow_error if the sum would exceed kMaxPenalty.
   void add(Time arrival, Arc arc, Amount amount);
-  // There are no penalties at this time or later.
+  // All penalties for arrival at this time or later are 0.
   Time end() const { return static_cast<Time>(pages_of_time_.size()); }
 
  private:
@@ -69,12 +70,13 @@ class Penalties {
   static constexpr Amount kMaxPenalty = 1 << 28;
 
   const World& world_;
-  const State* first_move_;  // the moves of state 0, which are the first of all
+  const State* first_move_;  // start of the array of all moves
   std::vector<Arc> first_arc_;
   std::vector<Arc> arc_of_move_;
   CsrArray arcs_to_;
   std::size_t arcs_ = 0;
-  std::vector<std::vector<std::uint32_t>> pages_of_time_;  // 0: no penalties on that page
+  std::vector<std::vector<std::uint32_t>>
+      pages_of_time_;  // by arrival time and page of arcs; 0: none
   std::vector<Amount> pages_;
 };
 

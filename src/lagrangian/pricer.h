@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pricing: the subproblem values of several agents under given multipliers. With the messages that
-// ask another process for them.
+// Pricing: computes the subproblem values of agents under given multipliers. Also defines the
+// messages by which a process requests values from another one.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@
 
 namespace grove::detail {
 
-constexpr std::int64_t kLabelsPerWork = 2;  // see search/work.h
+constexpr std::int64_t kLabelsPerWork = 2;  // labels per unit of work (search/work.h)
 
-// Consecutive agents first .. end - 1 and their results, one entry per agent.
+// The agents `first`, ..., `end` - 1, and their results with one entry per agent.
 struct PricingJob {
   AgentIndex first = 0;
   AgentIndex end = 0;
-  std::vector<ScaledCost> known;  // cost of a known path; kNoCost: none
+  std::vector<ScaledCost> known;  // penalised cost of a known path; kNoCost: none
   std::vector<ScaledCost> values;
   std::vector<Path> paths;  // empty: no path cheaper than `known` was found
-  std::int64_t work = 0;    // in the unit of search/work.h
-  bool failed = false;      // memory was refused: no result counts
+  std::int64_t work = 0;    // effort, in the unit of search/work.h
+  bool failed = false;      // memory ran out, so the results are not valid
 };
 
-// Messages between processes: the request for subproblem values of several agents, and the reply.
-// Values.
+// Messages between processes: a request for the subproblem values of consecutive agents, and the
+// reply. Value types.
 struct PricingRequest {
   std::int64_t round = 0;
   std::int32_t first = 0;         // first agent
@@ -38,23 +38,24 @@ struct PricingRequest {
 };
 
 struct PricingReply {
-  std::int64_t round = 0;    // of the request
-  std::uint64_t digest = 0;  // of the multipliers under which all values were computed
+  std::int64_t round = 0;    // round of the request
+  std::uint64_t digest = 0;  // digest of the multipliers under which all values were computed
   std::int32_t first = 0;
   std::vector<ScaledCost> values;
   std::vector<Path> paths;  // empty: no path cheaper than the known one was found
   std::int64_t work = 0;
 };
 
-// Computes subproblem values. One thread at a time.
+// Computes subproblem values. Keeps the agents' cost-to-go stores between jobs. One thread at a
+// time.
 class Pricer {
  public:
-  // `multipliers` must outlive this, and may change between jobs. `stops` is copied.
+  // `multipliers` must outlive this object, and may change between jobs. `stops` is copied.
   Pricer(const Multipliers& multipliers, const AgentStopsCache& stops)
       : multipliers_(multipliers), stops_(stops), search_(multipliers.penalties()) {}
 
-  // Computes the subproblem value of each agent of the job. Proven: no path of the agent has a
-  // lower penalised cost.
+  // Computes the subproblem value of each agent of the job, which is a proven lower bound on the
+  // penalised cost of every path of the agent. It is exact unless a limit was reached.
   void perform(PricingJob& job, const Limits& limits);
 
  private:

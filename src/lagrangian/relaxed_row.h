@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Relaxed row: a constraint "at most one use", satisfied by every plan.
+// Relaxed row: a constraint of the form "at most one use", which every plan satisfies.
 #pragma once
 
 #include <cstdint>
@@ -8,21 +8,21 @@
 
 namespace grove::detail {
 
-// In any plan at most one agent uses a row, and it uses it once (proof: relaxed_rows.cpp). `a`,
-// `b`: of kPlace a place (only a), of kEdge two neighbours, the lesser one first, of kFinish two
-// agents.
+// A plan uses each row at most once (relaxed_rows.cpp defines the uses and has the proof). For
+// kPlace, `a` is a place. For kEdge, `a` < `b` are neighbouring places. For kFinish, `a` and `b`
+// are agents.
 struct RelaxedRow {
   enum class Kind : std::uint8_t { kPlace, kEdge, kFinish };
   Kind kind = Kind::kPlace;
   std::int32_t a = 0;
   std::int32_t b = 0;
-  Time time = 0;    // of kFinish: latest finish of agent a
-  Time time_b = 0;  // only of kFinish: latest finish of agent b
+  Time time = 0;    // kPlace, kEdge: the (arrival) time; kFinish: latest finish of agent a
+  Time time_b = 0;  // kFinish only: latest finish of agent b
 
   friend bool operator==(const RelaxedRow&, const RelaxedRow&) = default;
 };
 
-// A row and its multiplier in units of 1/1024 step.
+// A row and its multiplier, in units of 1 / 1024 step (Penalties::kUnit).
 struct RowMultiplier {
   RelaxedRow row;
   std::int32_t multiplier = 0;

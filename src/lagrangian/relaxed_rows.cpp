@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
-// *Claim: in any plan each row is used at most once, by at most one agent.* *Proof*, by kind of
+// *Claim: a plan uses each row at most once.* *Proof*, with the definition of a use, by kind of
 // row:
 //
-// *Place at a time.* Used by being there then, at rest or not. Two agents would collide.
+// *Place at a time.* An agent uses the row if it is on the place at that time, at rest or not. Two
+// such agents would collide.
 //
-// *Edge u - v at a time*, where u has the lesser number. Used by arriving at that time by u -> v or
-// by v -> u, or after staying on u. Two agents that move the same way, or both stay on u, share a
-// place. Two that move in opposite directions swap. An agent that stays on u is on the place that
-// the other one leaves or enters. An agent arrives once at a time.
+// *Edge u - v at a time t*, where u has the lower number. An agent uses the row if in the step that
+// ends at t it moves from u to v or from v to u, or stays on u. Two agents that move in the same
+// direction, or both stay on u, would be on one place. Two agents that move in opposite directions
+// would swap. An agent that stays on u would be on the place that the other agent leaves or enters.
+// An agent makes one step at a time, so it uses the row at most once.
 //
-// *Pair of finish times.* Used by agent a if it comes to rest by its time, and by agent b if it
-// does by its own. Not both, by finish_time_conflicts.h. Each agent finishes once.
+// *Pair of finish times.* Agent a uses the row if it finishes at its time in the row or earlier,
+// and agent b uses it if it finishes at its own time in the row or earlier. A row is added only
+// after the proof that no plan contains both (finish_time_conflicts.cpp). Each agent finishes once.
 //
-// *Arithmetic.* Multipliers are never negative. An agent is charged the sum of the integer
-// multipliers of the rows that its path uses. The proof uses these integers, so it does not depend
-// on the floating-point arithmetic that chose them.
+// *Arithmetic.* Multipliers are nonnegative integers. The bound is computed from these integers, so
+// its validity does not depend on the floating-point arithmetic that chooses them.
 #include "lagrangian/relaxed_rows.h"
 
 #include <algorithm>
@@ -24,7 +26,8 @@
 namespace grove::detail {
 namespace {
 
-// Limit of a multiplier: 64 steps. No observed multiplier exceeded a few steps.
+// Upper limit on a multiplier: the cost of 64 time steps. In practice multipliers do not exceed a
+// few time steps.
 constexpr double kGreatestMultiplier = 64.0 * Penalties::kUnit;
 
 std::uint64_t pair_key(const FinishTimePair& pair) {
@@ -43,7 +46,7 @@ std::uint64_t RelaxedRows::place_key(Place place, Time time) const {
          static_cast<std::uint64_t>(place);
 }
 
-// An edge is identified by its arc from the lesser place.
+// An edge is identified by its arc from the place with the lower number.
 std::uint64_t RelaxedRows::edge_key(Place from, Place to, Time arrival) const {
   const auto arc = multipliers_.penalties().arc(std::min(from, to), std::max(from, to));
   return static_cast<std::uint64_t>(arrival) << 32 | static_cast<std::uint32_t>(arc);
@@ -92,7 +95,7 @@ double RelaxedRows::update_direction(std::span<const Path> paths, const Occupanc
   count_uses(paths, occupancy);
   double squares = 0;
   for (RowState& row : row_states_) {
-    const bool is_at_rest = row.exact_multiplier <= 0;  // it cannot decrease
+    const bool is_at_rest = row.exact_multiplier <= 0;  // the multiplier cannot decrease
     double direction = row.used - 1;
     if (is_at_rest) direction = std::max(direction, 0.0);
     direction += memory * row.direction;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Relaxed rows: the constraints that couple the agents, with their multipliers and directions.
+// Set of relaxed rows: constraints that couple the agents, with their multipliers and directions of
+// ascent.
 #pragma once
 
 #include <cstdint>
@@ -13,27 +14,30 @@
 
 namespace grove::detail {
 
-// Set of relaxed rows: in any plan at most one agent uses a row, and it uses it once (proof: head
-// of the .cpp). An agent pays a row's multiplier for using it. One thread at a time, and no thread
-// may read multipliers() in the meantime.
+// Relaxed rows (relaxed_row.h), each with a multiplier, which an agent's path pays for each use of
+// the row, and a direction for the subgradient method. While one thread changes the object, no
+// other thread may use it or multipliers().
 class RelaxedRows {
  public:
-  // `world` must outlive this.
+  // `world` must outlive this object.
   RelaxedRows(const World& world, int agents);
 
   const Multipliers& multipliers() const { return multipliers_; }
 
-  // Adds a row with multiplier 0. For a collision, an existing row stays as it is.
+  // Adds a row with multiplier 0. add(collision) does nothing if the row exists.
   void add(const Collision& collision);
   void add(const FinishTimePair& pair);
-  // Whether a row forbids that both agents finish by these times.
+  // True if an existing row implies that not both agents finish by these times.
   bool has(const FinishTimePair& pair) const;
 
-  // Sets the direction of each row: its uses by `paths` minus 1, plus `memory` times the old
-  // direction; not below 0 if the multiplier is 0. Returns the squared length of the direction.
+  // Sets the direction of each row to its subgradient, which is its number of uses by `paths` minus
+  // 1, plus `memory` times its old direction. If the multiplier is 0, neither the subgradient nor
+  // the direction is below 0. `occupancy` must contain the counts of `paths`. Returns the squared
+  // norm of the direction.
   double update_direction(std::span<const Path> paths, const OccupancyCounts& occupancy,
                           double memory);
-  // Moves each multiplier by `step` times its direction, within 0 .. 64 steps.
+  // Adds `step` times its direction to each multiplier, clamps the result to the cost of 0 to 64
+  // time steps, and rounds it to an integer amount.
   void take_step(double step);
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// *Claim: the digest of a reply is that of the multipliers under which all its values were
-// computed.* *Proof.* accept() rejects a request before the last one is answered, and that one is
-// answered only when all its jobs are committed. So no job sees two states of the multipliers, and
-// the digest taken in accept() is that of all values.
+// *Claim: all values of a reply were computed under the multipliers that its digest identifies.*
+// *Proof.* Only accept() changes the multipliers, and it computes the digest afterwards. It rejects
+// a new request until the reply to the previous one was taken, which requires that all jobs of that
+// request are committed. Therefore the multipliers do not change while a job is in progress.
 #include "lagrangian/remote_pricing.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Remote pricing: subproblem values for a Lagrangian bound in another process.
+// Remote pricing: computes subproblem values for the Lagrangian bound of another process.
 #pragma once
 
 #include <cstddef>
@@ -11,21 +11,24 @@
 
 namespace grove::detail {
 
-// Holds a copy of the other process's multipliers and the current pricing request, whose agents are
-// separate jobs. Thread-safe.
+// A helper's side of LagrangianBound. Stores a copy of the other process's multipliers and the
+// current pricing request, and makes one job of each agent in the request. Thread-safe, but
+// multipliers() may be used only while the caller has a job.
 class RemotePricing {
  public:
-  // `instance` must outlive this.
+  // `instance` must outlive this object.
   explicit RemotePricing(const Instance& instance);
 
-  // Accepts the next request; the last one must have been answered. Throws std::invalid_argument if
-  // the request is invalid.
+  // Accepts a request and updates the multipliers. Throws std::invalid_argument if the request is
+  // invalid, or if take_answer() has not returned the reply to the previous request.
   void accept(PricingRequest request);
-  // The next job. Returns nullopt if there is none. The caller must perform and commit() it.
+  // Returns the next job of the request, which the caller must perform with a Pricer and then
+  // commit(). Returns nullopt if there is none.
   std::optional<PricingJob> next();
   bool has_jobs() const;
   void commit(PricingJob job);
-  // The reply to the request, once, when all its jobs are committed; nullopt otherwise.
+  // Returns the reply to the current request, once, after all of its jobs are committed; nullopt
+  // otherwise.
   std::optional<PricingReply> take_answer();
 
   const Multipliers& multipliers() const { return multipliers_; }
@@ -34,9 +37,9 @@ class RemotePricing {
   const Instance& instance_;
   Multipliers multipliers_;  // changes only when no job is in progress
   mutable std::mutex mutex_;
-  std::optional<PricingRequest> share_;  // not answered yet; mutex_ guards it and all below
+  std::optional<PricingRequest> share_;  // current request; mutex_ guards it and all below
   PricingReply answer_;
-  std::size_t next_ = 0;  // entry of the request
+  std::size_t next_ = 0;  // position in the request of the next job
   std::size_t done_ = 0;
 };
 

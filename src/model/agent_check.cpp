@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// As check.cpp, direct rather than clever, and without the moves of the world.
+// Checks one agent's plan. Like check.cpp, the code is written so that it can be compared with
+// docs/design.md, section 1, and it does not use World::moves().
 #include "model/agent_check.h"
 
 #include <algorithm>
@@ -15,8 +16,8 @@ bool are_neighbors(const Grid& grid, Cell from, Cell to) {
   return std::abs(a.x - b.x) + std::abs(a.y - b.y) <= 1;
 }
 
-// True if the step belongs to a quarter turn. A quarter turn leads from one heading to the next
-// through all states within the turn.
+// True if the step from `from` to `to`, two poses on one place, is a step of a quarter turn. A
+// quarter turn leads from a heading to an adjacent one, through all poses within the turn.
 bool is_step_of_turn(Motion motion, const Pose& from, const Pose& to) {
   const bool ends = from.steps + 1 == motion.turn_steps || motion.turn_steps == 1;
   if (ends && to.steps != 0) return false;
@@ -103,7 +104,7 @@ void AllowedSteps::add_roads(const Roadmap& roadmap) {
 
 namespace {
 
-// Checks one agent's path against the agent's start, goal and tasks.
+// Checks one agent's plan against its start, goal and tasks.
 class AgentCheck {
  public:
   AgentCheck(const Instance& instance, const AllowedSteps& steps, AgentIndex index,
@@ -115,8 +116,7 @@ class AgentCheck {
         report_(report),
         place_(fmt::format("/agents/{}", index)) {}
 
-  // Reports every error of this agent. Returns the time at which the agent finishes, or nullopt if
-  // its path cannot be followed.
+  // Implements check_agent().
   std::optional<Time> run() {
     if (plan_.path.empty()) {
       report_.add(place_, "agent '{}' has no path; expected one for every agent", agent_.id);
@@ -156,7 +156,7 @@ class AgentCheck {
     return true;
   }
 
-  // Checks start, places and steps.
+  // Checks the start, that no place is blocked, and each step.
   void walk() {
     for (std::size_t t = 0; t < poses_.size(); ++t)
       if (!steps_.is_open(poses_[t].place))
@@ -172,7 +172,8 @@ class AgentCheck {
                     name(poses_[t - 1]), name(poses_[t]), steps_.rule(agent_.motion));
   }
 
-  // Checks each work interval, that no two of them overlap, and the work in progress at the start.
+  // Checks each task execution, that no two overlap or execute the same task, and that the
+  // execution in progress at the start continues.
   void check_work() {
     for (std::size_t k = 0; k < plan_.work.size(); ++k) {
       const std::string place = fmt::format("{}/work/{}", place_, k);
@@ -229,8 +230,8 @@ class AgentCheck {
       }
   }
 
-  // The task that the agent is working on at the start, and the number of steps done. Returns
-  // nullopt if it does not start at work.
+  // The task that the agent is executing at the start, and the number of steps done. Returns
+  // nullopt if the agent does not start at work.
   std::optional<std::pair<TaskIndex, Time>> begun_before() const {
     if (!instance_.world().is_working(agent_.start)) return std::nullopt;
     const Work& work = instance_.world().work(agent_.start);
@@ -252,8 +253,8 @@ class AgentCheck {
                   steps_.name(end.place));
   }
 
-  // The first time >= `begin` at which the task counts as visited. Returns nullopt if there is
-  // none.
+  // The earliest time >= `begin` at which the agent visits the task or completes its execution.
+  // Returns nullopt if there is no such time.
   std::optional<Time> visit(TaskIndex index, Time begin) const {
     const Task& task = instance_.task(index);
     if (task.duration > 0) {
@@ -284,7 +285,7 @@ class AgentCheck {
       report_.add(place, "expected every task of agent '{}' exactly once", agent_.id);
       return;
     }
-    // It is right to take the first visit that is late enough, because this leaves the most time
+    // Choosing the earliest possible visit of each task is optimal, because it leaves the most time
     // for the later tasks.
     Time now = 0;
     for (std::size_t k = 0; k < plan_.sequence.size(); ++k) {
@@ -300,8 +301,8 @@ class AgentCheck {
     check_last_task(place);
   }
 
-  // Work is not repeated at the end. So an agent with any work may end at another task than its
-  // last one.
+  // Checks that an agent without a destination ends on the last task of its sequence. This does not
+  // apply if one of its tasks takes time, because such a task cannot be executed again at the end.
   void check_last_task(const std::string& place) {
     const auto takes_time = [&](TaskIndex task) { return instance_.task(task).duration > 0; };
     if (agent_.goal || plan_.sequence.empty() || std::ranges::any_of(agent_.tasks, takes_time))
@@ -314,8 +315,8 @@ class AgentCheck {
                   agent_.id, steps_.name(poses_.back().place), last.id);
   }
 
-  // The finish time: from then on the state never changes and no task is left. All visits without
-  // work lie before, because the agent enters no new place later.
+  // The finish time, from which the state never changes and no task is left. Tasks without duration
+  // are visited by then, because the agent enters no place later.
   Time finishes() const {
     Time time = static_cast<Time>(poses_.size()) - 1;
     while (time > 0 && at(time - 1) == poses_.back()) --time;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The part of the checker (check.h) that checks one agent by itself, and what both parts use: the
-// steps that a map allows, and the report of violations.
+// The part of the plan checker (check.h) that checks each agent by itself, and two types that both
+// parts use: the allowed steps of a map, and the report of violations.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 
 namespace grove::detail {
 
-// The violations found so far. Ignores further ones after `limit` of them.
+// Collects up to `limit` violations and ignores any further ones. One thread at a time.
 class ViolationReport {
  public:
   explicit ViolationReport(std::size_t limit) : limit_(limit) {}
@@ -34,17 +34,17 @@ class ViolationReport {
   std::vector<Violation> violations_;
 };
 
-// The steps that a map allows. They are derived from its cells or roads, independently of the moves
-// of its world.
+// The steps that the rules allow on a map. They are derived from its cells or roads, not from
+// World::moves(), so that the check is independent of the search.
 class AllowedSteps {
  public:
-  // `map` must outlive this.
+  // `map` must outlive this object.
   explicit AllowedSteps(const Map& map);
 
   Place places() const;
   bool is_open(Place place) const;
   bool allow(Motion motion, const Pose& from, const Pose& to) const;
-  // The allowed steps, for messages.
+  // Describes the allowed steps, for messages.
   std::string_view rule(Motion motion) const;
   std::string name(Place place) const;
   std::string name(Motion motion, const Pose& pose) const;
@@ -58,8 +58,9 @@ class AllowedSteps {
   std::set<std::pair<Place, Place>> on_roads_;
 };
 
-// Reports every error of this agent's path against the agent's start, goal and tasks. Returns the
-// time at which the agent finishes, or nullopt if its path cannot be followed.
+// Checks the plan of agent `index` against its start, goal, heading, work and tasks, and adds each
+// error to `report`. Returns the agent's finish time. Returns nullopt if the path is empty or
+// leaves the map.
 std::optional<Time> check_agent(const Instance& instance, const AllowedSteps& steps,
                                 AgentIndex index, const AgentPlan& plan, ViolationReport& report);
 

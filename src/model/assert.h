@@ -7,8 +7,8 @@
 
 namespace grove::detail {
 
-// Thrown by a failed assertion, which means an error in the code. Programs then end with exit code
-// 1.
+// Thrown by a failed assertion, which indicates an error in the code. Programs then end with exit
+// code 1.
 struct AssertionFailed : std::logic_error {
   using std::logic_error::logic_error;
 };
@@ -20,9 +20,9 @@ struct AssertionFailed : std::logic_error {
 
 }  // namespace grove::detail
 
-// GROVE_ASSERT(condition, what): for checks that cost O(1), or little compared with the code around
-// them. `what` says what should hold. In builds without GROVE_ASSERTIONS (Release) the condition is
-// compiled but not evaluated.
+// GROVE_ASSERT(condition, what): for checks that cost O(1), or little compared with the surrounding
+// code. `what` states the property that should hold. In builds without GROVE_ASSERTIONS (Release)
+// the condition is compiled but not evaluated.
 #ifdef GROVE_ASSERTIONS
 #define GROVE_ASSERT(condition, what) \
   ((condition) ? void(0) : ::grove::detail::assertion_failed(__FILE__, __LINE__, what))

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The definition of a valid plan (docs/design.md, section 1), implemented a second time. The code
-// is direct rather than clever, so that it can be compared with that section line by line. It
-// checks, in this order:
-// - Each agent by itself (agent_check.cpp): start, places, steps, work, end, visits, cost.
-// - Collisions: all agents move through time together on one table of the agent on each place. The
-//   effort is O(agents * time) instead of O(agents^2).
-// - Claims: the plan's cost is the sum of the costs of its paths, and its status follows from cost,
-//   bound and omega.
+// A second, independent implementation of the definition of a valid plan (docs/design.md, section
+// 1). The code is direct rather than clever, so that it can be compared with that section line by
+// line. It checks, in this order:
+// - Each agent by itself (agent_check.cpp): start, places, steps, task executions, end, visits,
+//   cost.
+// - Collisions: all agents advance step by step, on a table with the agent on each place. The
+//   effort is O(agents * time), instead of O(agents^2 * time) for comparing all pairs of paths.
+// - Claims: the plan's cost is the sum of the agents' finish times, and its status follows from
+//   cost, lower bound and omega.
 #include "model/check.h"
 
 #include <fmt/format.h>
@@ -21,8 +22,8 @@
 namespace grove::detail {
 namespace {
 
-// Checks for collisions by moving all agents through time together. Precondition: every path is
-// inside the map.
+// Checks for collisions by advancing all agents step by step. Precondition: no path is empty or
+// leaves the map.
 class CollisionCheck {
  public:
   CollisionCheck(const Instance& instance, const AllowedSteps& steps, const Plan& plan,
@@ -95,8 +96,8 @@ class CollisionCheck {
                        std::min(t, plan_.agents[agent].path.size() - 1));
   }
 
-  // Reports each pair only once, at its first collision, because agents that collide often do so
-  // for many steps.
+  // True if no collision of this type was reported for the pair yet. Only the first one is
+  // reported, because agents that collide often do so in many steps.
   using Pairs = std::set<std::pair<AgentIndex, AgentIndex>>;
   static bool is_new(Pairs& pairs, AgentIndex a, AgentIndex b) {
     return pairs.insert(std::minmax(a, b)).second;
@@ -114,7 +115,8 @@ class CollisionCheck {
   Pairs following_pairs_;
 };
 
-// The sum of the finish times of all paths. Returns nullopt if a path cannot be followed.
+// Checks each agent by itself. Returns the sum of the finish times. Returns nullopt if a path is
+// empty or leaves the map.
 std::optional<Cost> check_agents(const Instance& instance, const AllowedSteps& steps,
                                  const Plan& plan, ViolationReport& report) {
   std::optional<Cost> total = 0;
@@ -126,7 +128,8 @@ std::optional<Cost> check_agents(const Instance& instance, const AllowedSteps& s
   return total;
 }
 
-// The status that follows from a plan's cost and the claimed bound.
+// The status that follows from a plan's cost and the claimed lower bound. Precondition: lower_bound
+// <= cost.
 Status deserved_status(Cost cost, Cost lower_bound, Omega omega) {
   if (cost == lower_bound) return Status::kOptimal;
   const bool within = !omega.is_infinite() && omega.accepts(cost, lower_bound);

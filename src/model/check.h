@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The checker: verifies that a plan is valid and that its claims agree. It recomputes every visit,
-// cost and conflict from the instance and the paths (docs/design.md, section 1), with code of its
-// own. It shares the types of `model` with the search: World (states, moves, places), Instance and
-// Plan. It does not verify the lower bound. It checks only that bound, cost and status agree.
+// The plan checker: verifies that a plan is valid and that its claims are consistent. It recomputes
+// every visit, cost and conflict from the instance and the paths (docs/design.md, section 1). It
+// calls no function of the search and shares with it only the data types of `model`: World,
+// Instance and Plan. It does not verify the lower bound. It checks only that bound, cost and status
+// are consistent.
 #pragma once
 
 #include <stdexcept>
@@ -14,16 +15,16 @@
 
 namespace grove::detail {
 
-// One error. `json_pointer` is a JSON Pointer (RFC 6901) into the plan file, such as
-// "/agents/2/path/17".
+// An error in a plan. `json_pointer` is its position in the plan file, a JSON Pointer (RFC 6901)
+// such as "/agents/2/path/17".
 struct Violation {
   std::string json_pointer;
   std::string message;
 };
 
-// Returns all errors of `solution` as a plan for `instance`, at most `limit` of them; empty: valid.
-// A solution without a plan, or with fewer agents than the instance, is an error, because it proves
-// nothing.
+// Returns the errors of `solution` as a plan of `instance`, at most max(limit, 1) of them. An empty
+// result means that the plan is valid and the claims are consistent. A missing plan is an error,
+// and so is a number of agents that differs from that of the instance.
 std::vector<Violation> check(const Instance& instance, const Solution& solution,
                              std::size_t limit = 20);
 
@@ -40,8 +41,8 @@ class InvalidPlan : public std::logic_error {
   Violation violation_;
 };
 
-// Throws InvalidPlan with the first violation of check(), under the rules of the instance and of
-// the solution. A solution without a plan passes, because its status already says so.
+// Throws InvalidPlan with the first violation that check() finds. Accepts a solution without a
+// plan, because such a solution does not claim one.
 void require_valid_plan(const Instance& instance, const Solution& solution);
 
 }  // namespace grove::detail

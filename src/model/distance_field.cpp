@@ -10,9 +10,9 @@
 namespace grove::detail {
 namespace {
 
-// With fewer states in total, starting a thread costs more than it saves.
+// With fewer field entries in total, starting threads costs more than it saves.
 constexpr std::size_t kStatesForThreads = std::size_t{1} << 20;
-// Worlds with more states have no fields of ports.
+// Worlds with more states have no fields for ports.
 constexpr State kMaxStatesWithPorts = 1 << 16;
 
 std::vector<State> states_on(const World& world, Place place) {
@@ -21,7 +21,8 @@ std::vector<State> states_on(const World& world, Place place) {
   return states;
 }
 
-// The target sets of the agents of an instance, without duplicates for places.
+// The target sets of an instance's tasks and agents. Targets that consist of all states on one
+// place share a set.
 class Targets {
  public:
   explicit Targets(const Instance& instance) : instance_(instance) {
@@ -35,12 +36,13 @@ class Targets {
   }
 
   std::vector<std::vector<State>> sets;
-  std::vector<Place> places;  // by set: the place whose states it contains; kNoPlace: another set
-  // Indices of sets; kNone: no set, because the agent rests on its last stop or has no such port.
+  std::vector<Place> places;  // by set: the place, if it contains all of its states; else kNoPlace
+  // Indices in `sets`. kNone: the agent rests on its last stop, or no agent of this kind has this
+  // port.
   static constexpr int kNone = -1;
   std::vector<int> of_tasks;
   std::vector<int> of_agents;
-  std::vector<int> of_ports;  // as DistanceFields::by_port_; empty: there are no ports
+  std::vector<int> of_ports;  // indexed as DistanceFields::by_port_; empty: no ports
 
  private:
   int add(std::vector<State> states, Place place = kNoPlace) {
@@ -94,7 +96,7 @@ class Targets {
   int anywhere_ = kNone;
 };
 
-// Workspace for breadth-first searches backwards. One thread at a time.
+// Backward breadth-first search with a reusable queue. One thread at a time.
 class Walker {
  public:
   explicit Walker(const World& world)
@@ -106,7 +108,8 @@ class Walker {
     return distances;
   }
 
-  // Returns nullopt if distances exceed 16 bits and no memory is left for larger ones.
+  // Returns nullopt if distances exceed 16 bits and `limits` does not allow the memory for 32-bit
+  // distances.
   std::optional<CompactDistanceField> field(std::span<const State> targets, const Limits& limits) {
     std::vector<std::uint16_t> distances(queue_.size(), DistanceView::kShortNever);
     if (walk(targets, DistanceView::kShortNever, distances.data()))
@@ -115,14 +118,14 @@ class Walker {
     return CompactDistanceField(walk(targets));
   }
 
-  // Writes the field to `distances`. Returns false if 16 bits are not enough.
+  // Writes the field to `distances`. Returns false if a distance exceeds 16 bits.
   bool fill(std::span<const State> targets, std::uint16_t* distances) {
     std::fill_n(distances, queue_.size(), DistanceView::kShortNever);
     return walk(targets, DistanceView::kShortNever, distances);
   }
 
  private:
-  // Precondition: all `distances` are `never`. Returns false if a distance would be equal to
+  // Precondition: all `distances` are equal to `never`. Returns false if a distance would reach
   // `never`.
   template <class Steps>
   bool walk(std::span<const State> targets, Steps never, Steps* distances) {
@@ -167,7 +170,7 @@ DistanceFields::DistanceFields(const Instance& instance, const Limits& limits, i
   const Targets targets(instance);
   const std::size_t sets = targets.sets.size();
   const auto states = static_cast<std::size_t>(instance.world().state_count());
-  // Shared memory is already allocated.
+  // The memory of shared arrays is already allocated.
   if (!limits.memory_allows(arrays ? 0 : sets * states * sizeof(std::uint16_t))) {
     limits.memory_exhausted();
     return;

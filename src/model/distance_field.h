@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shortest distances that ignore other agents.
+// Distance fields: shortest distances of one agent to its targets, without regard to other agents.
 #pragma once
 
 #include <cstddef>
@@ -17,20 +17,21 @@
 
 namespace grove::detail {
 
-// Distance in steps from every state to the nearest of some target states; kNever if none is
-// reachable. Indexed by State.
+// By State: the distance in steps to the nearest of some target states; kNever if none is
+// reachable.
 using DistanceField = std::vector<Time>;
 
-// Computes the distances to the nearest of `targets` by breadth-first search backwards. O(states).
+// Computes the distances to the nearest of `targets` by backward breadth-first search. O(states +
+// moves).
 DistanceField distance_field(const World& world, std::span<const State> targets);
-// The same for all states on `target`.
+// Computes the distances to the nearest state on place `target`.
 DistanceField distance_field(const World& world, Place target);
 
-// A view of a distance field. The field is a DistanceField or a CompactDistanceField, which takes
-// half the memory if no distance exceeds 65,534 steps.
+// Read access to a distance field without ownership. The field is a DistanceField or a
+// CompactDistanceField.
 class DistanceView {
  public:
-  DistanceView() = default;  // refers to no field
+  DistanceView() = default;  // views no field
   // `field` must outlive this view and must not move.
   explicit DistanceView(const DistanceField& field) : long_(field.data()) {}
 
@@ -40,7 +41,7 @@ class DistanceView {
     return steps == kShortNever ? kNever : steps;
   }
   explicit operator bool() const { return short_ || long_; }
-  // Compares the identity of the fields, not their content.
+  // Compares the addresses of the fields, not their entries.
   friend auto operator<=>(const DistanceView&, const DistanceView&) = default;
 
   static constexpr std::uint16_t kShortNever = 0xFFFF;
@@ -54,14 +55,16 @@ class DistanceView {
   const Time* long_ = nullptr;
 };
 
+// A distance field that takes half the memory of a DistanceField if no distance exceeds 65,534
+// steps.
 class CompactDistanceField {
  public:
   CompactDistanceField() = default;
-  // kShortNever stands for kNever.
+  // 16-bit distances, in which kShortNever stands for kNever.
   explicit CompactDistanceField(std::vector<std::uint16_t> distances)
       : short_(std::move(distances)) {}
   explicit CompactDistanceField(DistanceField distances) : long_(std::move(distances)) {}
-  // The caller owns the memory of `distances`, which must outlive this object.
+  // Refers to 16-bit distances that the caller owns. They must outlive this object.
   explicit CompactDistanceField(const std::uint16_t* distances) : elsewhere_(distances) {}
 
   DistanceView distances() const {
@@ -75,41 +78,43 @@ class CompactDistanceField {
   DistanceField long_;
 };
 
-// The distance fields of all targets of the agents of an instance: the tasks, and the states where
-// an agent may rest. Each is computed once. Immutable: any thread may read it.
+// The distance fields of an instance: one for each task, and one for the states in which each agent
+// may rest. Targets that consist of all states on one place share a field. Immutable: any thread
+// may read it.
 class DistanceFields {
  public:
-  // Computes the fields on `threads` threads, or on one if the effort is small. Asks `limits` for
-  // the memory and polls it between fields. If a limit is reached, complete() is false.
-  // `known`: fields of an earlier instance, or nullptr. Fields of the same map are shared with it
-  // if every state is equal to its place.
-  // `arrays`: shared memory with the layout_of() this instance, or nullptr. It must outlive this
-  // object. Then the fields lie there, and the other processes compute a part of them. This process
-  // computes the fields that no process has provided.
+  // Computes the fields on `threads` threads, or on one thread if the effort is small. Checks the
+  // memory limit first, and polls `limits` before each field. If a limit is reached, complete() is
+  // false.
+  // `known`: fields of an earlier instance, or nullptr. If both instances share the map object and
+  // every state is equal to its place, fields of common targets are reused.
+  // `arrays`: shared arrays with layout_of(instance), or nullptr. They must outlive this object.
+  // With `arrays` the fields are stored there, and each process computes a part of them. This
+  // process computes in its own memory each field that no process has completed.
   explicit DistanceFields(const Instance& instance, const Limits& limits = Limits(),
                           int threads = 1, const DistanceFields* known = nullptr,
                           const SharedArrays* arrays = nullptr);
 
-  // The sizes in bytes of the shared arrays (ArrayKind::kDistances) for the fields of this
-  // instance.
+  // The size in bytes of each shared array (ArrayKind::kDistances) for the fields of `instance`.
   static std::vector<std::size_t> layout_of(const Instance& instance);
-  // A shared array for data that is derived from these fields. Returns no array if there are no
-  // shared arrays.
+  // A shared array for data that is derived from these fields. The result is empty if this object
+  // does not use shared arrays.
   SharedArray array(ArrayKind kind, std::size_t number) const {
     return arrays_ ? arrays_->array(kind, number) : SharedArray();
   }
 
-  // True if all fields were computed. If it is false, no field may be requested.
+  // True if all fields were computed. Only then may the functions below be called.
   bool complete() const { return complete_; }
 
-  // Distances to the states that visit the task: those on its place or, if it takes time, the end
-  // of the work.
+  // Distances to the states in which an agent visits the task: all states on its place or, if the
+  // task takes time, the states in which its execution is completed.
   DistanceView to_task(TaskIndex task) const { return by_task_[task]; }
-  // Distances to one port of the task: the states that visit it with an agent of kind `kind` in
-  // heading `port`. Precondition: has_ports(), which is true on worlds of moderate size in which
-  // agents turn.
+  // The number of ports of a task, one for each heading.
   static constexpr int kPorts = 4;
+  // True on worlds of moderate size in which agents turn.
   bool has_ports() const { return !by_port_.empty(); }
+  // Distances to one port of the task: the states in which an agent of kind `kind` visits it with
+  // heading `port`. Precondition: has_ports().
   DistanceView to_port(TaskIndex task, int kind, int port) const {
     return by_port_[(static_cast<std::size_t>(task) * kinds_ + kind) * kPorts + port];
   }
@@ -124,21 +129,21 @@ class DistanceFields {
   using FieldPtr = std::shared_ptr<const CompactDistanceField>;
   FieldPtr field_to(Place place, const DistanceFields* known) const;
 
-  const SharedArrays* arrays_ = nullptr;  // nullptr: fields_ own their memory
-  std::shared_ptr<const Map> map_;        // nullptr unless every state is its place
-  std::map<Place, FieldPtr> to_place_;    // fields of map_, by target
+  const SharedArrays* arrays_ = nullptr;  // nullptr: no shared arrays are used
+  std::shared_ptr<const Map> map_;        // nullptr unless every state is equal to its place
+  std::map<Place, FieldPtr> to_place_;    // by target: fields of map_
   std::vector<FieldPtr> fields_;
   std::vector<DistanceView> by_task_;
   std::vector<DistanceView> by_agent_;
-  // By task, kind and heading; empty for a task that no agent of this kind has.
+  // By task, kind and heading; an empty view if no agent of this kind has the task as a stop.
   std::vector<DistanceView> by_port_;
   std::size_t kinds_ = 1;
   bool complete_ = false;
 };
 
-// The minimum of the distances from the base states of one kind on a place.
+// The minimum distance over the base states of kind `kind` on `place`.
 Time min_distance_from(const World& world, Place place, int kind, DistanceView distances);
-// The maximum of the same distances.
+// The maximum distance over the base states of kind `kind` on `place`.
 Time max_distance_from(const World& world, Place place, int kind, DistanceView distances);
 
 }  // namespace grove::detail

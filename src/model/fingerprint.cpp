@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// FNV-1a (Fowler, Noll, Vo) over 64-bit numbers, least significant byte first.
+// The hash is FNV-1a (Fowler, Noll, Vo) over a sequence of 64-bit numbers, least significant byte
+// first.
 //
-// The sequence of numbers determines the instance: each list follows its length, and kOptional,
-// which no place and no length is, precedes what only some tasks and agents have.
+// For a given type of map, the sequence of numbers determines the instance: each list follows its
+// length, and kOptional, which differs from all places and lengths, precedes data that only some
+// tasks and agents have.
 #include "model/fingerprint.h"
 
 namespace grove::detail {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fingerprint of an instance: a 64-bit hash.
+// Fingerprint of an instance: a 64-bit hash of everything that the search depends on.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,11 @@
 
 namespace grove::detail {
 
-// The same on every machine and in every version for instances that are the same to the search:
-// map, starts, destinations, tasks and their order. Names and files do not count. Two other
-// instances have the same fingerprint with a probability of 2^-64 only. The hash is FNV-1a, which
-// does not resist deliberate collisions.
+// The fingerprint covers the map, the starts, motions and destinations of the agents, the tasks,
+// the order of both, and whether following is allowed. It does not cover ids, coordinates or file
+// names. It is the same on every machine and in every version. Different instances have equal
+// fingerprints with a probability of about 2^-64. The hash is FNV-1a, which does not resist
+// deliberate collisions.
 std::uint64_t fingerprint(const Instance& instance);
 
 }  // namespace grove::detail

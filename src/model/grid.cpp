@@ -17,7 +17,8 @@ void require_valid_size(int width, int height, std::size_t cells) {
     throw std::invalid_argument("a grid needs width * height cells");
 }
 
-// The moves of each cell: the passable cells next to it.
+// Returns the moves from each cell, which lead to the adjacent passable cells. There are none from
+// a blocked cell.
 CsrArray moves_on(int width, int height, const std::vector<bool>& passable) {
   require_valid_size(width, height, passable.size());
   CsrArray moves;

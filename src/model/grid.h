@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The grid that agents move on.
+// A grid of cells on which agents move.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace grove::detail {
 
-// A cell of a grid as a number: y * width + x. It is the place, and the state of agents that turn
-// freely.
+// The number of a cell: y * width + x. It is equal to the cell's Place, and to the State of an
+// agent that turns freely there.
 using Cell = Place;
 inline constexpr Cell kNoCell = kNoPlace;
 
@@ -28,12 +28,13 @@ struct Position {
 class Grid : public World {
  public:
   // `passable` has width * height entries, row by row from the top. Throws std::invalid_argument if
-  // a size is not positive or does not fit.
+  // width or height is not positive, their product exceeds the range of Cell, or the number of
+  // entries is different.
   Grid(int width, int height, const std::vector<bool>& passable);
 
   int width() const { return width_; }
   int height() const { return height_; }
-  // The number of all cells, passable or not. Cells are numbered 0, ..., cell_count() - 1.
+  // The number of cells, passable or not. Cells are numbered 0, ..., cell_count() - 1.
   Cell cell_count() const { return place_count(); }
   int passable_count() const { return passable_count_; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hashes of sequences of values. Two different sequences have the same hash with a probability of
+// 64-bit hashes of sequences of values. Different sequences have equal hashes with a probability of
 // about 2^-64.
 #pragma once
 
@@ -7,8 +7,9 @@
 
 namespace grove::detail {
 
-// The same on every machine. Two multiplications carry low bits of the arguments to high bits of
-// the result, two shifts carry high bits to low bits.
+// Returns the hash of a sequence that continues with `value` after a prefix with hash `hash`. The
+// result is the same on every machine. The multiplications carry low bits of the arguments to high
+// bits of the result; the shifts carry high bits to low bits.
 inline std::uint64_t hash_combine(std::uint64_t hash, std::uint64_t value) {
   hash = (hash ^ value) * 0x9E3779B97F4A7C15u;
   hash ^= hash >> 32;

@@ -72,7 +72,7 @@ std::vector<State> Instance::states_to_rest(AgentIndex agent) const {
   return states;
 }
 
-// The first stop on a place also visits the tasks on that place that are not stops.
+// Tasks that are not stops come immediately before the agent's first stop on their place.
 std::vector<TaskIndex> Instance::tasks_in_order(AgentIndex agent,
                                                 std::span<const std::uint8_t> stops) const {
   const Agent& a = agents_[agent];
@@ -252,8 +252,8 @@ void InstanceBuilder::require_work(AgentIndex agent, const WorkBegun& begun) con
                      begun.done, begun.task, task.duration - 1));
 }
 
-// An agent may do work in any heading. Within a turn it needs to work only if it starts within that
-// turn: before any other turn it can do the work first.
+// An agent may work in any heading. States of work within a turn are needed only for the turn in
+// which the agent starts, because the agent can work before any other turn.
 std::vector<MotionWorld::Job> InstanceBuilder::jobs() const {
   std::vector<MotionWorld::Job> jobs;
   const auto state_of = [&](int kind, const Pose& pose) {

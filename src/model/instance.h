@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A CTS-MAPF instance: a map, agents, and the places that each agent must visit (docs/design.md,
+// A CTS-MAPF instance: a map, agents, and the tasks that each agent must visit (docs/design.md,
 // section 1).
 #pragma once
 
@@ -20,41 +20,42 @@ namespace grove::detail {
 
 using AgentIndex = std::int32_t;  // position in Instance::agents()
 
-// The maximum number of tasks of an agent, because sets of its tasks are 64-bit masks.
+// The maximum number of tasks per agent. Sets of an agent's tasks are 64-bit masks.
 inline constexpr int kMaxTasksPerAgent = 64;
 
 struct Agent {
   std::string id;
   State start = kNoState;
-  std::optional<Place> goal;            // its destination; nullopt for an MG-MAPF agent
+  std::optional<Place> goal;            // the destination; nullopt: none (MG-MAPF or idle agent)
   std::optional<Heading> goal_heading;  // the heading at rest; nullopt: any heading
   Motion motion = {};
-  int kind = 0;                       // the kind of its states (world.h)
-  std::vector<TaskIndex> tasks = {};  // in the order in which the instance lists them
-  // The tasks that the search visits, in the order of `tasks`. Of the tasks on one place, these are
-  // the ones that take time, or one task if none does. An agent that visits these also visits all
-  // other tasks on that place.
+  int kind = 0;                       // kind of the agent's base states (world.h)
+  std::vector<TaskIndex> tasks = {};  // in ascending order of index
+  // The tasks that the search must order, a subsequence of `tasks`. Of the agent's tasks on one
+  // place, the stops are those that take time or, if none does, one of them. An agent that visits
+  // its stops on a place thereby visits its other tasks there.
   std::vector<TaskIndex> stops = {};
 
-  // True for an agent without goal and tasks, which may rest anywhere.
+  // True for an agent with neither a destination nor tasks. It may rest anywhere.
   bool is_idle() const { return !goal && tasks.empty(); }
 };
 
 struct Task {
   std::string id;
   Place cell = kNoPlace;
-  std::vector<AgentIndex> agents;  // each of them must visit the place
-  Time duration = 0;               // steps of work there
+  std::vector<AgentIndex> agents;  // each of these agents must visit the task
+  Time duration = 0;               // of its execution, in steps
 };
 
-// Work on a task, given by its id, that an agent has begun before time 0.
+// Execution of a task that an agent began before time 0: the task's id, and the number of steps
+// done.
 struct WorkBegun {
   std::string task;
   Time done = 0;
 };
 
-// Description of an agent, including turns and work. If the agent turns freely, only the place of
-// `start` counts.
+// Description of an agent for InstanceBuilder::add_agent(). If the agent turns freely, only the
+// place of `start` is used.
 struct AgentSpec {
   std::string id;
   Pose start;
@@ -64,9 +65,9 @@ struct AgentSpec {
   std::optional<WorkBegun> working = {};
 };
 
-// A violated rule of docs/design.md, section 1. `field` names the invalid part of the agent or task
-// being added ("id", "start", "goal", "tasks", "cell", "agents", "agents/2"). what() describes the
-// error.
+// Thrown for an instance that violates a rule of docs/design.md, section 1. field() names the
+// invalid part of the agent or task that is being added, for example "start", "cell" or "agents/2".
+// what() describes the error.
 class InstanceError : public std::invalid_argument {
  public:
   InstanceError(std::string field, const std::string& message)
@@ -82,8 +83,8 @@ class Instance {
  public:
   const World& world() const { return *world_; }
   const Map& map() const { return *map_; }
-  // The map, to build other instances with. Data that depends only on the map is valid for all of
-  // them.
+  // The map, for building further instances on it. Instances that share the map can share all data
+  // that depends only on the map.
   std::shared_ptr<const Map> shared_map() const { return map_; }
   // Returns nullptr if every state is equal to its place.
   const MotionWorld* motion_world() const { return motion_world_.get(); }
@@ -98,20 +99,20 @@ class Instance {
   const Task& task(TaskIndex i) const { return tasks_[i]; }
   int agent_count() const { return static_cast<int>(agents_.size()); }
   int task_count() const { return static_cast<int>(tasks_.size()); }
-  // True, as by default, if an agent may enter a place in the step in which another one leaves it.
+  // True (the default) if an agent may enter a place in the step in which another agent leaves it.
   bool may_follow() const { return may_follow_; }
-  // The same instance without following, for robots that hold a place until they have left it
-  // ("1-robust plans", Atzmon et al. 2020).
+  // A copy of this instance in which following is forbidden, for robots that occupy a place until
+  // they have left it completely ("1-robust plans", Atzmon et al. 2020).
   Instance without_following() const {
     Instance instance = *this;
     instance.may_follow_ = false;
     return instance;
   }
-  // The specification with which InstanceBuilder::add_agent() would add this agent.
+  // The specification from which InstanceBuilder::add_agent() creates this agent.
   AgentSpec spec(AgentIndex agent) const;
 
-  // Converts between poses and base states of the agent's kind. pose_of() of a state of work is the
-  // pose in which the agent works.
+  // Conversions between poses and base states of the agent's kind. For a state at work, pose_of()
+  // returns the pose in which the agent works.
   State state_of(AgentIndex agent, const Pose& pose) const {
     return motion_world_ ? motion_world_->state(agents_[agent].kind, pose) : pose.place;
   }
@@ -120,8 +121,8 @@ class Instance {
     return world_->kind(base) == 0 ? Pose{.place = base} : motion_world_->pose(base);
   }
 
-  // True if an agent in `state` visits the task. A task that takes time is visited when its work is
-  // completed.
+  // True if an agent in `state` visits the task. A task that takes time is visited in the last
+  // state of its execution.
   bool is_visited(TaskIndex task, State state) const {
     const Task& t = tasks_[task];
     if (t.duration == 0) return world_->place(state) == t.cell;
@@ -129,17 +130,18 @@ class Instance {
     const Work& work = world_->work(state);
     return work.task == task && work.completed;
   }
-  // True if the agent may rest in `state`, provided that no task is left.
+  // True if the agent may rest in `state` once it has visited all its tasks.
   bool may_rest(AgentIndex agent, State state) const;
-  // All states in which is_visited() or may_rest() is true. states_to_rest() is empty for an idle
-  // agent, which may rest in any state.
+  // states_visiting(): all states in which is_visited() is true. states_to_rest(): all states in
+  // which may_rest() is true; empty for an idle agent, which may rest in any state.
   std::vector<State> states_visiting(TaskIndex task) const;
   std::vector<State> states_to_rest(AgentIndex agent) const;
-  // True if the agent rests on the last stop of its sequence. This holds for agents without a
-  // destination whose tasks take no time, because such a task can be visited again at the end.
+  // True if the agent rests on the last stop of its sequence. This holds for an agent without a
+  // destination that has tasks, none of which takes time, because it can visit such a task once
+  // more at the end.
   bool rests_on_last_stop(AgentIndex agent) const;
-  // The agent's tasks in the order in which they are visited. `stops`: an order of its stops, as
-  // positions in Agent::stops.
+  // All tasks of the agent, in the order in which it visits them if it visits its stops in the
+  // order `stops` (positions in Agent::stops).
   std::vector<TaskIndex> tasks_in_order(AgentIndex agent,
                                         std::span<const std::uint8_t> stops) const;
 
@@ -155,13 +157,13 @@ class Instance {
   bool may_follow_ = true;
 };
 
-// Builds instances: collects agents, then tasks, and checks every rule when they are added. There
-// is no other way to make an Instance.
+// Builds an Instance: add all agents, then all tasks, then call build(). Each rule is checked as
+// soon as it can be. Instances are created in no other way. One thread at a time.
 class InstanceBuilder {
  public:
   explicit InstanceBuilder(Map map);
   explicit InstanceBuilder(std::shared_ptr<const Map> map);
-  // Begins with the map and the rules of `instance`.
+  // Returns a builder with the map and the rules of `instance`, without agents and tasks.
   static InstanceBuilder like(const Instance& instance);
   const Map& map() const { return instance_.map(); }
   const Roadmap* roadmap() const { return instance_.roadmap(); }
@@ -169,27 +171,28 @@ class InstanceBuilder {
   void forbid_following() { instance_.may_follow_ = false; }
 
   // Adds an agent on a grid. Throws InstanceError for an empty or repeated id, and for a start or
-  // goal that is outside, blocked or taken.
+  // goal that is outside the grid or blocked, or that another agent has as its start or goal,
+  // respectively.
   AgentIndex add_agent(std::string id, Position start, std::optional<Position> goal);
-  // The same on any map; `start` and `goal` are places.
+  // Adds an agent on any map.
   AgentIndex add_agent(std::string id, Place start, std::optional<Place> goal);
   AgentIndex add_agent(AgentSpec spec);
 
   // Adds a task on a grid. Throws InstanceError for: an empty or repeated id; a cell that is
-  // outside or blocked; no agent, an unknown or repeated agent, or one with more than
-  // kMaxTasksPerAgent tasks; a duration out of range.
+  // outside the grid or blocked; an empty list of agents, an unknown or repeated agent, or an agent
+  // that already has kMaxTasksPerAgent tasks; a duration that is not in 0, ..., kMaxDuration.
   TaskIndex add_task(std::string id, Position cell, std::span<const std::string> agent_ids,
                      Time duration = 0);
-  // The same on any map.
+  // Adds a task on any map.
   TaskIndex add_task(std::string id, Place place, std::span<const std::string> agent_ids,
                      Time duration = 0);
 
   // The maximum duration of a task or a quarter turn, in steps.
   static constexpr Time kMaxDuration = 1 << 16;
 
-  // Throws InstanceError. Field "agents" or "agents/<i>/working/...": there are no agents, or an
-  // agent is at work on a task that is not its own, is not on its start, or is complete. Field
-  // "map" or "roadmap": too many states.
+  // Returns the instance. Throws InstanceError with field "agents" if there are no agents;
+  // "agents/<i>/working/..." if an agent is at work on a task that is not its own, that is not on
+  // its start, or that is already complete; "map" or "roadmap" if there are too many states.
   Instance build() &&;
 
  private:
@@ -202,7 +205,7 @@ class InstanceBuilder {
 
   Instance instance_;
   std::vector<AgentSpec> specs_;  // by AgentIndex
-  std::vector<Motion> motions_;   // distinct motions with turns
+  std::vector<Motion> motions_;   // distinct motions with turn_steps > 0
   std::unordered_map<std::string, AgentIndex> agent_by_id_;
   std::unordered_map<std::string, TaskIndex> task_by_id_;
   std::unordered_map<Place, AgentIndex> agent_by_start_;

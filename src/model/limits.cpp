@@ -14,10 +14,10 @@ namespace grove::detail {
 namespace {
 
 constexpr Limits::Clock::duration kMemoryLookInterval = std::chrono::milliseconds(5);
-constexpr double kForEver = 4e9;  // seconds; larger values could overflow the clock
+constexpr double kForEver = 4e9;  // seconds; longer times could overflow the clock
 
-// Set by set_shared_memory_accounting(): the number of processes that share memory, and the bytes
-// that they share.
+// Set by set_shared_memory_accounting(): the number of processes that share memory, and the size of
+// that memory.
 std::atomic<std::size_t> sharers{1};
 std::atomic<std::size_t> shared_bytes{0};
 

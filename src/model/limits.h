@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Limits on a run: time, memory and interrupt. The layers below the engine read the clock, the
-// memory in use and the interrupt only through this file.
+// Limits on a run: a deadline, a memory limit and an interrupt flag. The layers below the engine
+// read the clock, the memory use and the interrupt flag only through this file.
 #pragma once
 
 #include <atomic>
@@ -16,7 +16,7 @@ namespace grove::detail {
 
 enum class StopReason : std::uint8_t { kNone, kTime, kMemory, kInterrupt };
 
-// Text for plan files.
+// Returns the text for plan files, such as "time limit"; "" for kNone.
 inline std::string stop_text(StopReason reason) {
   switch (reason) {
     case StopReason::kTime:
@@ -31,69 +31,76 @@ inline std::string stop_text(StopReason reason) {
   return "";
 }
 
-// The memory that this process holds (its resident set), in bytes; 0 if the system does not report
-// it.
+// The resident set size of this process in bytes, with shared memory counted as set by
+// set_shared_memory_accounting(); 0 if the system does not report it. Thread-safe.
 std::size_t resident_bytes();
-// The maximum of the resident set since the process began, in bytes. (getrusage's ru_maxrss would
-// include the parent's value, which a child inherits.) Shared memory counts in full.
+// The maximum resident set size since this process started, in bytes, with shared memory counted in
+// full; 0 if the system does not report it. (ru_maxrss of getrusage() is not used, because a child
+// process inherits it from its parent.)
 std::size_t peak_resident_bytes();
-// `processes` processes share `bytes` bytes. From now on resident_bytes() counts this process's
-// part of the shared bytes and of mapped files, whichever process has touched them, in place of the
-// pages of both that this process has touched. (1, 0), the initial state: nothing is shared.
+// From now on, resident_bytes() counts shared pages as max(shared pages that this process has
+// touched, `bytes`) / `processes`, where `bytes` is the size of the memory that `processes`
+// processes share. Shared pages include those of mapped files. The initial values are (1, 0), which
+// means that nothing is shared.
 void set_shared_memory_accounting(int processes, std::size_t bytes);
 
-// Limits on a run. One object per run, shared by reference. Thread-safe, unless a method says
-// otherwise. Once a limit is reached, the object stays stopped, with the first reason.
+// Limits on a run. There is one object per run, which is passed by reference. The setters
+// (set_clock(), set_deadline(), set_memory_limit(), watch_interrupt()) must be called before other
+// threads use the object. All other methods are thread-safe. Once a limit is reached, the object
+// remains stopped, and reason() is the first reason.
 class Limits {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // No limit at all.
+  // No limits.
   Limits() = default;
-  // Limits on a part of a run: stops `seconds` seconds from now, or when `whole` stops. `whole`
-  // must outlive this object. The part has no memory limit or interrupt of its own.
+  // Limits on a part of a run. They are reached `seconds` seconds from now, or when a limit of
+  // `whole` is reached; whole.cancel_workers() does not affect them. `whole` must outlive this
+  // object. It provides the clock and the memory limit.
   Limits(const Limits& whole, double seconds);
 
-  // Reads the time from `clock` in place of the system clock. Call it before any thread uses these
-  // limits. `clock` must be thread-safe.
+  // Replaces the system clock by `clock`, which must be thread-safe.
   void set_clock(std::function<Clock::time_point()> clock) { clock_ = std::move(clock); }
-  // The time of the run's clock. All code below the engine that measures time uses it.
+  // The time by the run's clock. All code below the engine that measures time calls this function.
   Clock::time_point now() const {
     return whole_ ? whole_->now() : clock_ ? clock_() : Clock::now();
   }
 
   void set_deadline(Clock::time_point deadline) { deadline_ = deadline; }
   void set_memory_limit(std::size_t bytes) { memory_limit_ = bytes; }
-  // `flag` may be set by a signal handler. It must outlive this object.
+  // The run stops once `*flag` is true; a signal handler may set it. `flag` must outlive this
+  // object.
   void watch_interrupt(const std::atomic<bool>* flag) { interrupt_ = flag; }
 
-  // True once a limit was reached. Costs one clock reading (about 30 ns), and reads the memory use
-  // every few milliseconds. Call it at least once per millisecond of work.
+  // True once a limit is reached, or after cancel_workers(). Each call reads the clock (about 30
+  // ns); with a memory limit, one call every 5 ms also reads the memory use. Workers should call it
+  // at least once per millisecond.
   bool stop_requested() const;
   StopReason reason() const { return reason_.load(std::memory_order_relaxed); }
 
-  // Seconds until the deadline; negative once past, infinity without one.
+  // Seconds until the deadline; negative after it, and infinity if there is none.
   double seconds_left() const;
-  // True if `bytes` more bytes may be allocated within the memory limit. Call it before large
-  // tables are allocated. Does not stop the run.
+  // True if allocating `bytes` more bytes would not exceed the memory limit. Call it before
+  // allocating a large table. Does not stop the run.
   bool memory_allows(std::size_t bytes) const;
-  // Returns nullopt if memory is not limited.
+  // The memory limit in bytes. Returns nullopt if memory is not limited.
   std::optional<std::size_t> memory_limit() const {
     return whole_ ? whole_->memory_limit() : memory_limit_;
   }
-  // The resident set when stop_requested() last read it, in bytes; 0 before that, or without a
-  // limit.
+  // The resident_bytes() that stop_requested() read last; 0 before the first reading, and without a
+  // memory limit.
   std::size_t last_resident() const {
     return whole_ ? whole_->last_resident() : last_resident_.load(std::memory_order_relaxed);
   }
-  // Ends all work of a run that is complete: from now on stop_requested() is true. reason() does
-  // not change.
+  // Makes stop_requested() true from now on, so that the workers of a run that is complete end.
+  // Does not change reason().
   void cancel_workers() const { finished_.store(true, std::memory_order_relaxed); }
-  // Reverts cancel_workers(). Call it after all work has ended.
+  // Reverts cancel_workers(). Call it only after all workers have ended.
   void clear_cancel() const { finished_.store(false, std::memory_order_relaxed); }
-  // Stops the run for a reason that the caller found.
+  // Stops the run with this reason, unless it has already stopped with another one.
   void stop(StopReason reason) const;
-  // Stops the run for lack of memory. Call it when an allocation was refused elsewhere.
+  // Stops the run with StopReason::kMemory. Call it after a failed allocation, or after
+  // memory_allows() returned false.
   void memory_exhausted() const { stop(StopReason::kMemory); }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The map of an instance: a grid or a roadmap.
+// The map of an instance, which is a grid or a roadmap.
 #pragma once
 
 #include <variant>

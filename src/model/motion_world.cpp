@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Order of the base states of a kind with turns on one place: the four headings; then, for each
-// heading, the states within its turn to the right; then, for each heading, the states within its
-// turn to the left.
+// Numbering of the base states on one place, for a kind that turns: first the four headings; then,
+// for each heading, the states within the turn to the right; then, for each heading, the states
+// within the turn to the left.
 #include "model/motion_world.h"
 
 #include <fmt/format.h>
@@ -42,8 +42,9 @@ Pose pose_of_rank(Motion motion, Place place, int rank) {
           (rank - 4) % (motion.turn_steps - 1) + 1};
 }
 
-// The maximum time from one base state to another one on the same place: the agent completes the
-// current turn, makes two more, and begins the turn that contains the other state.
+// The maximum time from one base state to a different one on the same place. In the worst case the
+// agent completes its current turn, makes two more turns, and makes all but the last step of a
+// fourth turn.
 Time steps_about(Motion motion) {
   return motion.turn_steps == 0 ? 0 : 4 * motion.turn_steps - 2;
 }
@@ -60,7 +61,7 @@ class MovesOfBases {
  public:
   MovesOfBases(const Map& map, std::span<const Motion> motions) : map_(map), motions_(motions) {}
 
-  // Sets `moves` to the moves of a base state, except for those that begin work.
+  // Sets `moves` to the moves from a base state, except for moves to states at work.
   void add(State state, int kind, State first, std::vector<State>& moves) const {
     if (kind == 0) {
       const auto ways = ground(map_).moves(state);
@@ -147,7 +148,7 @@ MotionWorld::Parts MotionWorld::parts(const Map& map, std::span<const Motion> mo
     first += states_on_a_place(motion) * places.place_count();
   }
   std::unordered_map<State, std::vector<State>>
-      entries;  // by base state: first states of its chains of work
+      entries;  // by base state: the first states of its chains
   for (const Job& job : jobs) {
     const Time first = job.from_nothing ? 0 : 1;
     entries[job.base].push_back(static_cast<State>(bases + std::ssize(parts.work)) + 1 - first);

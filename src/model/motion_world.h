@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The world of agents that need time to turn, and of tasks that take time.
+// MotionWorld: the world of an instance in which turning or executing tasks takes time.
 #pragma once
 
 #include <array>
@@ -15,15 +15,15 @@
 
 namespace grove::detail {
 
-// On a grid. North is up, towards smaller y.
+// The heading of an agent on a grid. North is up, towards smaller y.
 enum class Heading : std::uint8_t { kNorth, kEast, kSouth, kWest };
 inline constexpr std::array<Heading, 4> kHeadings{Heading::kNorth, Heading::kEast, Heading::kSouth,
                                                   Heading::kWest};
-// letter() returns 'N', 'E', 'S' or 'W'. heading_of() is the inverse and returns nullopt for any
-// other text.
+// letter() returns 'N', 'E', 'S' or 'W'. heading_of() is its inverse. Returns nullopt if `text` is
+// not one of these letters.
 char letter(Heading heading);
 std::optional<Heading> heading_of(std::string_view text);
-// The next heading clockwise, and the next one counterclockwise.
+// The adjacent headings: clockwise, and counterclockwise.
 Heading right_of(Heading heading);
 Heading left_of(Heading heading);
 
@@ -33,8 +33,8 @@ struct Motion {
   friend bool operator==(const Motion&, const Motion&) = default;
 };
 
-// An agent's place and heading. If `steps` > 0, it is within a quarter turn to `to`, an adjacent
-// heading, and has made `steps` steps of this turn.
+// The place and heading of an agent. If `steps` > 0, the agent has made `steps` steps of a quarter
+// turn from `heading` to the adjacent heading `to`.
 struct Pose {
   Place place = kNoPlace;
   Heading heading = Heading::kNorth;
@@ -45,18 +45,18 @@ struct Pose {
 
 // A world over the places of a map (docs/design.md, section 1) with
 //
-// - for each motion with turns (grids only), a kind of base states: four headings on each place
-//   and, if a quarter turn takes d > 1 steps, d - 1 states within each of the eight turns. A move
-//   leads one cell ahead, or makes one step of a turn. From a state within a turn the only move
-//   continues this turn;
-// - for each task that takes d steps, and for each base state in which it may be done, a chain of d
-//   states of work. A move leads from the base state to the first one. The last one has the moves
-//   of the base state. (An agent that starts at work with no step done starts in an additional
-//   state before the first one.)
+// - for each motion in which turning takes time (only on grids), one kind of base states: the four
+//   headings on each place and, if a quarter turn takes d > 1 steps, d - 1 states within each of
+//   the eight turns (from each heading to the right or left). A move leads one cell ahead, or makes
+//   one step of a turn. The only move from a state within a turn continues that turn;
+// - for each task that takes d steps, and for each base state in which it can be executed, a chain
+//   of d states at work. A move leads from the base state to the first state of the chain. The last
+//   state has the moves of the base state. (For an agent that starts at work with no step done, the
+//   chain has an additional state in front, in which the agent starts.)
 class MotionWorld : public World {
  public:
-  // A task that takes `duration` steps, done in base state `base`. With `from_nothing` there is an
-  // additional state before the first step.
+  // Execution of a task that takes `duration` steps, in base state `base`. With `from_nothing` the
+  // chain has an additional state before the first step.
   struct Job {
     TaskIndex task;
     Time duration;
@@ -64,26 +64,28 @@ class MotionWorld : public World {
     bool from_nothing = false;
   };
 
-  // `motions`: distinct motions with turns; motion i is kind i + 1. `jobs`: distinct. Throws
-  // std::invalid_argument for turns on a map that is not a grid, and for too many states.
+  // `motions`: distinct motions with turn_steps > 0; motion i defines kind i + 1. `jobs`: no two
+  // with the same task and base state. Throws std::invalid_argument if there are motions but the
+  // map is not a grid, or if there are more than kMaxStates states.
   MotionWorld(std::shared_ptr<const Map> map, std::vector<Motion> motions,
               std::span<const Job> jobs);
 
-  // The same as state(), before there are jobs. The numbers of base states do not depend on jobs.
+  // Returns what state() returns, without a MotionWorld: the jobs of a world are defined by base
+  // states, and the numbers of base states do not depend on the jobs.
   static State base_state(const Map& map, std::span<const Motion> motions, int kind,
                           const Pose& pose);
 
   State state(int kind, const Pose& pose) const { return base_state(*map_, motions_, kind, pose); }
   // The pose of a base state. Precondition: its kind is not 0.
   Pose pose(State base) const;
-  // The state of an agent that works on this task in base state `base`, with `done` steps done.
-  // Throws std::invalid_argument if the world has no such state.
+  // The state of an agent at work on `task` in base state `base`, with `done` steps done. Throws
+  // std::invalid_argument if this world has no such state.
   State working(TaskIndex task, State base, Time done) const;
 
   std::string name(State state) const override;
 
-  // The maximum number of states. States are 32-bit numbers, and there are tables with several
-  // numbers for each state.
+  // The maximum number of states. State numbers have 32 bits, and some tables have several entries
+  // per state.
   static constexpr std::int64_t kMaxStates = std::int64_t{1} << 28;
 
  private:

@@ -27,8 +27,8 @@ Omega Omega::parse(std::string_view text) {
   const auto value = parse_number<double>(text);
   if (!value) throw std::invalid_argument(kExpected);
   const Omega omega = from_double(*value);
-  // Rejects text with more than 9 decimals: the double nearest to the text must also be the one
-  // nearest to a multiple of 1e-9.
+  // Rejects text with more than 9 decimals: the double nearest to the number in the text must be
+  // equal to the double nearest to a multiple of 1e-9.
   if (omega.value() != *value) throw std::invalid_argument(kExpected);
   return omega;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The suboptimality factor w and the test cost <= (1 + w) * lower bound.
+// The relative tolerance w (omega), and the test cost <= (1 + w) * lower bound in exact arithmetic.
 #pragma once
 
 #include <cstdint>
@@ -8,30 +8,32 @@
 
 namespace grove::detail {
 
-// The sum of all agents' costs, or a bound on it, in steps.
+// The cost of a plan, which is the sum of its agents' costs, or a bound on it; in time steps.
 using Cost = std::int64_t;
 // Greater than the cost of every plan.
 inline constexpr Cost kInfiniteCost = std::int64_t{1} << 60;
 
-// w in "cost <= (1 + w) * lower bound", as an exact decimal fraction, so that the test needs no
-// floating point: a multiple of 1e-9, or infinite. A value type, ordered by size.
+// The tolerance w in "cost <= (1 + w) * lower bound". It is infinite or a multiple of 1e-9, so that
+// the test needs no floating-point arithmetic. A value type, ordered by size.
 class Omega {
  public:
-  constexpr Omega() = default;  // w = 0: optimal
+  constexpr Omega() = default;  // w = 0: only optimal plans
   static constexpr Omega infinite() { return Omega(kInfinite); }
 
-  // Reads text such as "0", "0.01", "1e-2" or "inf". Throws std::invalid_argument with what was
-  // expected if the text is not a number, is negative, exceeds 1e6, or has more than 9 decimals.
+  // Parses text such as "0", "0.01", "1e-2" or "inf". Throws std::invalid_argument if the text is
+  // not a number, is negative, exceeds 1e6, or has more than 9 decimals. what() states what was
+  // expected.
   static Omega parse(std::string_view text);
   // Returns the nearest multiple of 1e-9. Throws std::invalid_argument if `value` is negative,
   // exceeds 1e6 or is not a number.
   static Omega from_double(double value);
 
   constexpr bool is_infinite() const { return billionths_ == kInfinite; }
-  double value() const;           // for output only; infinity if infinite
+  double value() const;           // rounded to double, for output; infinity if infinite
   std::string to_string() const;  // shortest decimal, or "inf"
 
-  // True if cost <= (1 + w) * bound, computed exactly. True for every cost if w is infinite.
+  // True if cost <= (1 + w) * bound, evaluated in integer arithmetic. True for every cost if w is
+  // infinite.
   constexpr bool accepts(Cost cost, Cost bound) const {
     if (is_infinite()) return true;
     return static_cast<Wide>(cost) * kUnit <= static_cast<Wide>(bound) * (kUnit + billionths_);

@@ -10,7 +10,7 @@
 
 namespace grove::detail {
 
-// The decimal number in `text`. Returns nullopt if the whole text is not a number from `min` to
+// The decimal number in `text`. Returns nullopt unless the whole text is a number from `min` to
 // `max`.
 template <class Number>
 std::optional<Number> parse_number(std::string_view text,

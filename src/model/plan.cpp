@@ -29,9 +29,9 @@ Time last_arrival(const World& world, const Path& path) {
 
 namespace {
 
-// The work that begins with the step that ends at `time`, or, for time 0, the work in progress at
-// the start, whose begin is minus the steps that are done. Returns nullopt if there is none.
-// Precondition: the path does not wait between two states of the same work.
+// The task execution whose first step ends at `time`. For time 0, the execution in progress at the
+// start; its begin is minus the number of steps done. Returns nullopt if there is none.
+// Precondition: the path contains no wait within a task execution.
 std::optional<WorkTime> work_begun(const Instance& instance, const Path& path, Time time) {
   const World& world = instance.world();
   if (!world.is_working(path[time])) return std::nullopt;
@@ -77,8 +77,8 @@ AgentPlan plan_of_path(const Instance& instance, AgentIndex agent, const Path& p
   return agent_plan(instance, agent, order, path);
 }
 
-// Moves work within a turn to before the turn, on the same place. The world has states for work
-// within a turn only for the turn that the agent starts in.
+// Moves each task execution within a turn to the time before that turn. This is necessary because
+// the world has states at work within a turn only for the turn in which the agent starts.
 AgentPlan with_work_before_turns(const Instance& instance, AgentPlan plan) {
   for (WorkTime& work : plan.work) {
     if (work.begin <= 0) continue;
@@ -135,7 +135,7 @@ std::optional<Status> parse_status(std::string_view text) {
 Status status_of(std::optional<Cost> cost, Cost lower_bound, Omega omega) {
   if (!cost) return Status::kUnknown;
   if (*cost <= lower_bound) return Status::kOptimal;
-  // With w = inf the caller did not request a bound, so the bound proves no tolerance.
+  // With w = inf the caller requested no tolerance, so kBounded would be meaningless.
   if (!omega.is_infinite() && omega.accepts(*cost, lower_bound)) return Status::kBounded;
   return Status::kFeasible;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Result of a run: a status, a lower bound, and a plan if one was found (docs/design.md, section
-// 5).
+// Paths, plans, and the result of a run: status, lower bound and, if one was found, a plan
+// (docs/design.md, section 5).
 #pragma once
 
 #include <cstdint>
@@ -17,25 +17,26 @@
 
 namespace grove::detail {
 
-// The states of an agent at times 0, 1, ...: path[0] is its start, and it stays in path.back() for
-// ever.
+// The states of an agent at times 0, 1, ...: path[0] is its start, and after the end of the path
+// the agent stays in path.back() for ever.
 using Path = std::vector<State>;
 
-// The state of an agent with this path at `time`. Precondition: the path is not empty.
+// The state at `time` of an agent with this path. Preconditions: the path is not empty, and time >=
+// 0.
 inline State state_at(const Path& path, Time time) {
   GROVE_ASSERT(!path.empty() && time >= 0, "an agent is somewhere from time 0 on");
   return time < static_cast<Time>(path.size()) ? path[time] : path.back();
 }
-// The place of the agent at `time`.
+// The place at `time` of an agent with this path. The preconditions are those of state_at().
 inline Place place_at(const World& world, const Path& path, Time time) {
   return world.place(state_at(path, time));
 }
-// The time at which the agent arrives at its last place, where it stays for ever. The path may
-// continue on this place, for example with turns.
+// The time from which the agent stays on its last place for ever. The path may continue on this
+// place, for example with turns.
 Time last_arrival(const World& world, const Path& path);
 
-// The interval from `begin` to `end` in which an agent works on a task that takes time. `begin` is
-// negative if the agent starts at work.
+// The execution of a task that takes time, from time `begin` to `end` = `begin` + duration. `begin`
+// is negative if the agent starts at work with at least one step done.
 struct WorkTime {
   TaskIndex task = -1;
   Time begin = 0;
@@ -44,23 +45,24 @@ struct WorkTime {
 };
 
 struct AgentPlan {
-  Time cost = 0;                    // finish time: when it rests for ever with its tasks visited
-  std::vector<TaskIndex> sequence;  // all its tasks, in an order in which the path visits them
+  Time cost = 0;  // finish time: the agent then rests for ever, with all tasks visited
+  std::vector<TaskIndex> sequence;  // all tasks, in an order in which the path visits them
   Path path;                        // base states only (world.h), up to time `cost`
   std::vector<WorkTime> work = {};  // in order of time
 };
 
-// The plan of an agent that follows this path. The path may contain states of work, and the agent
-// may rest at its end. The agent rests as soon as it may: turns without a purpose are omitted.
-// `stops`: a sequence that the path realizes, as positions in Agent::stops.
+// Converts a path with states at work into the agent's plan. Precondition: the agent may rest at
+// the end of the path. In the plan the agent rests as soon as it may, so turns at the end that are
+// not needed are omitted. `stops`: a sequence of the agent's stops (positions in Agent::stops) that
+// the path realizes.
 AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
                      std::span<const std::uint8_t> stops, const Path& path);
-// The same if only the path is known: the stops are ordered by their first visits. If the agent
-// rests on its last stop, the stop at the end of the path comes last. Precondition: the path ends
-// at rest with every task visited.
+// As agent_plan(), but derives the sequence from the path: stops are ordered by their first visits.
+// If the agent rests on its last stop, the stop at the end of the path comes last. Precondition:
+// all tasks are visited, and the agent may rest at the end of the path.
 AgentPlan plan_of_path(const Instance& instance, AgentIndex agent, const Path& path);
-// The inverse: the path of the agent, with states of work, until it finishes. Precondition: `plan`
-// is valid.
+// The inverse of plan_of_path(): the path until the agent finishes, with states at work.
+// Precondition: `plan` is valid.
 Path walked_path(const Instance& instance, AgentIndex agent, const AgentPlan& plan);
 
 struct Plan {
@@ -68,24 +70,27 @@ struct Plan {
   std::vector<AgentPlan> agents;  // by AgentIndex
 };
 
-// The plan in which every agent stays on its start. Used while there is no plan.
+// The plan in which each agent stays at its start. It need not be valid. It stands in for a plan
+// while there is none.
 Plan standing_plan(const Instance& instance);
 
 enum class Status : std::uint8_t {
-  kOptimal,     // a plan, and its cost equals the lower bound
-  kBounded,     // a plan, and cost <= (1 + w) * lower bound
-  kFeasible,    // a plan, and cost > (1 + w) * lower bound
-  kInfeasible,  // proven: no plan exists
-  kUnknown,     // no plan when a limit was reached
+  kOptimal,     // there is a plan, and its cost is equal to the lower bound
+  kBounded,     // there is a plan, w is finite, and cost <= (1 + w) * lower bound
+  kFeasible,    // there is a plan, for which neither is proven
+  kInfeasible,  // it is proven that no plan exists
+  kUnknown,     // no plan was found before a limit was reached
 };
 
 std::string_view to_string(Status status);
 std::optional<Status> parse_status(std::string_view text);
 
-// The status that follows from a plan's cost (nullopt: no plan) and a proven lower bound.
+// The status that follows from the cost of a plan and a proven lower bound. `cost`: nullopt if
+// there is no plan.
 Status status_of(std::optional<Cost> cost, Cost lower_bound, Omega omega);
 
-// Statistics of a run by name: "stats" of the plan file. Names include units (wall_s).
+// Statistics of a run, by name, as in "stats" of the plan file. A name includes the unit, as in
+// wall_s.
 struct Stats {
   std::map<std::string, std::int64_t> counts;
   std::map<std::string, double> measures;
@@ -95,9 +100,9 @@ struct Stats {
 struct Solution {
   Status status = Status::kUnknown;
   std::optional<Plan> plan;
-  Cost lower_bound = 0;  // proven: no plan costs less; meaningless (0) if infeasible
+  Cost lower_bound = 0;  // proven: no plan costs less; 0 and without meaning if infeasible
   Omega omega;
-  bool may_follow = true;  // false: the claims hold for the instance without following
+  bool may_follow = true;  // false: plan and bound refer to the instance without following
   Stats stats;
 };
 

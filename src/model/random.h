@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Random numbers that are the same on every machine. The C++ standard specifies std::mt19937_64 and
-// std::seed_seq bit by bit, but not its distributions and std::shuffle. This file implements these.
+// Pseudorandom numbers that are the same on every machine. The C++ standard specifies the output of
+// std::mt19937_64 and std::seed_seq exactly, but not that of its distributions and of std::shuffle.
+// Therefore this file implements its own draws and shuffles.
 #pragma once
 
 #include <concepts>
@@ -12,8 +13,8 @@
 
 namespace grove::detail {
 
-// Draw number `number` of the sequence of `seed`, in [0, 1). A draw does not depend on which other
-// ones are made, or when (SplitMix64, Steele et al. 2014).
+// Draw number `number` >= 0 of the sequence with seed `seed`, in [0, 1). It is a function of the
+// two arguments, independent of all other draws made (SplitMix64, Steele, Lea and Flood, 2014).
 inline double unit_draw(std::uint64_t seed, std::uint64_t number) {
   std::uint64_t z = seed + (number + 1) * 0x9E3779B97F4A7C15;
   z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9;
@@ -21,12 +22,11 @@ inline double unit_draw(std::uint64_t seed, std::uint64_t number) {
   return static_cast<double>((z ^ z >> 31) >> 11) * 0x1p-53;
 }
 
-// A sequence of random numbers that depends only on the seed. One thread at a time.
+// A pseudorandom sequence that depends only on its seed. One thread at a time.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
-  // One of several sequences of the same seed. Sequences with different `use` are independent of
-  // each other.
+  // One of several sequences with the same seed, distinguished by `use`.
   Random(std::uint64_t seed, std::uint32_t use) : engine_(of_use(seed, use)) {}
 
   // A uniform draw from 0, ..., bound - 1. Precondition: bound > 0.
@@ -34,7 +34,7 @@ class Random {
   Int below(Int bound) {
     const auto n = static_cast<std::uint64_t>(bound);
     std::uint64_t draw = engine_();
-    // Rejects the lowest 2^64 mod n draws, so that the result is uniform.
+    // Rejects draws below 2^64 mod n, so that the result is uniform.
     while (draw < n && draw < -n % n) draw = engine_();
     return static_cast<Int>(draw % n);
   }
@@ -57,7 +57,8 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-// The finaliser of SplitMix64 (Steele, Lea and Flood, 2014): flipping one bit flips about half.
+// The output function of SplitMix64 (Steele, Lea and Flood, 2014). Flipping one bit of `x` flips
+// about half of the bits of the result.
 inline std::uint64_t scramble(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -65,7 +66,7 @@ inline std::uint64_t scramble(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// SplitMix64 itself: fast random numbers for ties. One thread at a time.
+// The generator SplitMix64: fast random numbers for breaking ties. One thread at a time.
 class SplitMix64 {
  public:
   explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
@@ -75,7 +76,8 @@ class SplitMix64 {
     state_ += 0x9e3779b97f4a7c15u;
     return static_cast<std::uint32_t>(number >> 32);
   }
-  // One of 0 .. n-1; n > 0 and small.
+  // A draw from 0, ..., n - 1. Precondition: n > 0. The distribution is uniform up to a relative
+  // error of n / 2^32, so n should be small.
   std::uint32_t below(std::uint32_t n) {
     return static_cast<std::uint32_t>(std::uint64_t{next()} * n >> 32);
   }

@@ -34,8 +34,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kUnlimited =
-    std::uint64_t{1} << 62;  // at least this: no limit; cgroup version 1 writes such a number
+constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 62;  // and more: no limit (cgroup v1)
 
 // The minimum of the limits in the files of a control group. A file may be missing or contain
 // "max".
@@ -49,7 +48,7 @@ std::uint64_t limit_of(const fs::path& group) {
 }
 
 // The minimum of the limits of `folder` and of the groups on the path `group` below it. In a
-// container `group` may be the path on the host, while only the container's own group exists.
+// container `group` can be a path of the host, of which only the container's own group is visible.
 std::uint64_t limit_within(const fs::path& folder, std::string_view group) {
   std::uint64_t least = limit_of(folder);
   fs::path inner = folder;
@@ -61,7 +60,7 @@ std::uint64_t limit_within(const fs::path& folder, std::string_view group) {
   return least;
 }
 
-// True if `controllers`, such as "a,b,c", contains `name`.
+// True if the list `controllers`, such as "a,b,c", contains `name`.
 bool lists(std::string_view controllers, std::string_view name) {
   while (!controllers.empty()) {
     const std::string_view first = controllers.substr(0, controllers.find(','));
@@ -71,14 +70,16 @@ bool lists(std::string_view controllers, std::string_view name) {
   return false;
 }
 
-// The value of a variable if it is a number >= 1. Returns nullopt if it is not, or is not set.
+// The number in an environment variable. Returns nullopt if the variable is not set or is not an
+// integer >= 1.
 std::optional<std::int64_t> count(const Environment& environment, const char* name) {
   const char* value = environment(name);
   if (value == nullptr) return std::nullopt;
   return parse_number<std::int64_t>(value, 1, std::numeric_limits<std::int32_t>::max());
 }
 
-// Slurm counts in MB of 1024 kB. With `--mem=0` (all memory of the node) it sets no variable.
+// Slurm's unit is MB of 2^20 bytes. With `--mem=0` (all memory of the node) Slurm sets neither
+// variable.
 std::uint64_t limit_of_slurm(const Environment& environment) {
   constexpr std::uint64_t kMegabyte = std::uint64_t{1} << 20;
   std::uint64_t least = kUnlimited;

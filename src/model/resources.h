@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The resources of the machine that this process may use: memory and cores.
+// The memory and the cores that this process may use.
 #pragma once
 
 #include <cstdint>
@@ -9,24 +9,24 @@
 
 namespace grove::detail {
 
-// The memory of the machine, in bytes.
+// The physical memory of this machine, in bytes.
 std::uint64_t physical_memory();
-// The memory of the machine in bytes, or less if a container or a batch system grants less.
+// The minimum of physical_memory() and job_memory_limit(), in bytes.
 std::uint64_t usable_memory();
 // The number of cores that this process may use, >= 1.
 int usable_cores();
 
-// The value of an environment variable; nullptr if it is not set.
+// Returns the value of an environment variable; nullptr if it is not set.
 using Environment = std::function<const char*(const char* name)>;
 
-// The bytes of memory that this host grants to this process and those it shares a job or a
-// container with: the least limit of its control group (version 1 or 2), of the groups around it,
-// and of its Slurm job (SLURM_MEM_PER_NODE, or SLURM_MEM_PER_CPU times SLURM_CPUS_ON_NODE). Slurm
-// and containers kill a process that needs more. Returns nullopt without a limit. Reads
-// /proc/self/cgroup and below /sys/fs/cgroup, both under `root`.
+// The memory limit in bytes of the batch job or container of this process, on this host: the
+// minimum of the limits of its control group (version 1 or 2), of the parent groups, and of its
+// Slurm job (SLURM_MEM_PER_NODE, or SLURM_MEM_PER_CPU times SLURM_CPUS_ON_NODE). All processes of
+// the job or container together must not exceed it, or they are killed. Returns nullopt if there is
+// no limit. Reads /proc/self/cgroup and files below /sys/fs/cgroup, where `root` stands for "/".
 std::optional<std::uint64_t> job_memory_limit(const std::filesystem::path& root,
                                               const Environment& environment);
-// Those of this process.
+// The limit of this process: root "/" and the real environment.
 std::optional<std::uint64_t> job_memory_limit();
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Roadmap: roads between named vertices (docs/design.md, section 1).
+// Roadmap: a map of roads between vertices (docs/design.md, section 1).
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@
 
 namespace grove::detail {
 
-// In metres.
+// A point in the plane. Coordinates are in metres.
 struct Point {
   double x = 0;
   double y = 0;
@@ -27,9 +27,10 @@ struct Vertex {
   Point at;
 };
 
-// A road that takes `steps` steps, from vertex `from` to `to` and, unless `one_way`, back.
+// A road from vertex `from` to vertex `to`, which takes `steps` >= 1 steps. Unless `one_way`, it
+// leads back as well.
 struct Road {
-  int from = 0;  // positions in Roadmap::vertices()
+  int from = 0;  // `from` and `to`: positions in Roadmap::vertices()
   int to = 0;
   Time steps = 1;
   bool one_way = false;
@@ -39,15 +40,16 @@ struct Road {
 // and, on a two-way road, turn back. Immutable: any thread may read it.
 class Roadmap : public World {
  public:
-  // Position of a place: at a vertex, or on a road.
+  // The location of a place: a vertex, or a number of steps along a road.
   struct Spot {
-    int vertex = -1;  // -1: on a road
+    int vertex = -1;  // -1: the place is on a road
     int road = -1;
-    Time steps = 0;  // from the beginning of the road
+    Time steps = 0;  // from vertex Road::from
   };
 
-  // Throws std::invalid_argument if there is no vertex, a road has less than one step or an unknown
-  // vertex, an id is empty or repeated, or there are more than kMaxPlaces places.
+  // Throws std::invalid_argument if there are no vertices, a road has fewer than one step, an
+  // unknown vertex or equal ends, an id is empty or repeated, or there are more than kMaxPlaces
+  // places.
   Roadmap(std::vector<Vertex> vertices, std::vector<Road> roads);
 
   static constexpr Place kMaxPlaces = 1 << 26;
@@ -55,25 +57,25 @@ class Roadmap : public World {
   const std::vector<Vertex>& vertices() const { return vertices_; }
   const std::vector<Road>& roads() const { return roads_; }
 
-  // The position of the vertex with this id. Returns nullopt if there is none.
+  // The position in vertices() of the vertex with this id. Returns nullopt if there is none.
   std::optional<int> vertex(std::string_view id) const;
-  // The place of a vertex, and the place `steps` steps from the beginning of a road, 0 <= steps <=
-  // length of the road.
+  // The place of a vertex; and the place that is `steps` steps from the beginning of a road, where
+  // 0 <= steps <= Road::steps.
   Place place_of_vertex(int vertex) const { return vertex; }
   Place place_on_road(int road, Time steps) const;
   Spot spot(Place place) const;
-  // Coordinates in metres. The places on a road are spread evenly.
+  // Coordinates in metres. The inner places of a road divide the line between its ends evenly.
   Point at(Place place) const;
-  // The roads that join two vertices, in either direction; often none.
+  // The roads that join two vertices, in either direction. The span is empty if there are none.
   std::span<const int> roads_between(int a, int b) const;
 
-  // ["A"] or ["A", "B", 2], as in plan files.
+  // The path entry in plan files, such as ["A"] or ["A", "B", 2].
   std::string name(State state) const override;
 
  private:
   std::vector<Vertex> vertices_;
   std::vector<Road> roads_;
-  std::vector<Place> first_inner_;  // by road; one more at the end
+  std::vector<Place> first_inner_;  // by road; the last entry is the end of the last road
   std::map<std::pair<int, int>, std::vector<int>> by_ends_;
   std::unordered_map<std::string, int> by_id_;
 };

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Why a process never reads an array that is not complete.
+// Proof that a process never reads an incomplete array.
 //
-// Claim: if await() returns an array, then all of its bytes are written, and no thread writes to it
-// any more.
-// Proof: an array changes from kEmpty to kClaimed by compare-exchange. So at most one thread of
-// all members fills it. Only that thread stores the result: kReady after the last byte (release),
-// or kFailed. A reader has loaded kReady (acquire), hence it sees all bytes. No thread writes to
-// an array that is kReady.
-// A member that ends or becomes unresponsive while it fills an array leaves it kClaimed for ever.
-// Then no process reads that array, and each process makes its own.
+// Claim: if await() returns an array, all of its bytes have been written, and no thread writes to
+// it any more.
+// Proof: the state of an array changes from kEmpty to kClaimed by compare-exchange. Therefore at
+// most one thread of all members fills it. Only that thread stores the result: kReady (with release
+// order, after the last byte) or kFailed. A reader has loaded kReady (with acquire order), hence it
+// sees all bytes. No thread writes to an array in state kReady.
+// If a member ends or becomes unresponsive while it fills an array, the array remains kClaimed. In
+// this case no process reads the array, and each process computes its own copy of the data.
 //
-// Claim: the array that a process reads is equal to the one that it would compute. Proof: all
+// Claim: the array that a process reads is equal to the array that it would compute. Proof: all
 // members run the same program on the same instance (the code that sets up the members ensures
 // this), and the content of an array depends only on these two.
 #include "model/shared_arrays.h"
@@ -25,8 +25,9 @@
 namespace grove::detail {
 namespace {
 
-// The most expensive array takes some ten milliseconds, and a multiple of that with many ranks on a
-// core. If two processes make the same array, this costs only memory.
+// Computing the most expensive array takes some tens of milliseconds, and a multiple of that if
+// many ranks share a core. If the wait is too short, two processes compute the same data, which
+// costs only time and memory.
 constexpr auto kPatience = std::chrono::seconds(1);
 constexpr auto kNap = std::chrono::microseconds(200);
 
@@ -88,7 +89,7 @@ SharedArray SharedArrays::array(ArrayKind kind, std::size_t number) const {
   if (number >= rooms.size()) return {};
   const Room& room = rooms[number];
   std::byte* const begin = memory_.data();
-  // The bytes of the flag were zero, which is the representation of an atomic integer with value 0.
+  // The bytes of the flag were initially zero, which represents an atomic integer with value 0.
   return {reinterpret_cast<SharedArray::Flag*>(begin + room.flag), begin + room.begin, room.bytes};
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Arrays in memory that several processes share. The processes compute them together, and each
-// process reads all of them. This file defines which arrays there are, where they lie, and which
-// process computes which.
+// Arrays in shared memory, which several processes compute together and all of them read. This file
+// defines the kinds of arrays, their layout in memory, and the protocol by which one process
+// computes each array.
 #pragma once
 
 #include <array>
@@ -15,40 +15,39 @@
 
 namespace grove::detail {
 
-// The content of an array, and the meaning of its number.
+// The content of an array. Arrays of one kind are numbered from 0.
 enum class ArrayKind : std::uint8_t {
-  kDistances,      // 16-bit distances (DistanceFields); number: set of states
+  kDistances,      // 16-bit distances (DistanceFields); number: index of the target set
   kStopsOfStates,  // the stop at each state (AgentStops); number: agent
   kSequenceTable,  // costs to go (CostToGo); number: agent
 };
 inline constexpr int kArrayKinds = 3;
 
-// The size of each array in bytes, by kind and number; 0: there is no such array.
+// By kind and number: the size of the array in bytes; 0: the array does not exist.
 using ArrayLayout = std::array<std::vector<std::size_t>, kArrayKinds>;
 
 class SharedArrays;
 
-// One shared array, or none. Refers to the memory of its SharedArrays. Thread-safe.
+// A reference to one array of a SharedArrays, or to none. Thread-safe.
 class SharedArray {
  public:
-  SharedArray() = default;  // none
+  SharedArray() = default;  // refers to no array
 
-  // True if there is an array with room for `bytes` bytes.
+  // True if this refers to an array of at least `bytes` bytes.
   bool has_room(std::size_t bytes) const { return bytes <= room_; }
 
-  // Computes the array unless another process or thread has begun to. Calls fill(begin), where
-  // `begin` points to the memory of the array, of the size in the layout. fill() returns true if it
-  // succeeded. It must write the same bytes in all processes.
+  // Computes the array, unless another process or thread has already started to. To compute it,
+  // calls fill(begin), where `begin` points to the memory of the array, which has the size given in
+  // the layout. fill() must return true on success, and must write the same bytes in every process.
   template <class Fill>
   void make(const Fill& fill) const;
 
-  // Returns the complete array. While another process or thread computes it, waits up to 1 s.
-  // Returns nullptr if the array could not be computed, no process has begun to compute it, the
-  // process that did is unresponsive, or `limits` is reached. Then the caller must compute an array
-  // of its own.
+  // Returns the array if it is complete. If another process or thread is computing it, waits up to
+  // 1 s. Returns nullptr if the computation failed or did not start, or if the wait ended after 1 s
+  // or at a limit. In that case the caller must compute the data in memory of its own.
   const std::byte* await(const Limits& limits) const;
 
-  // make(), then await().
+  // Calls make(), then await().
   template <class Fill>
   const std::byte* get(const Limits& limits, const Fill& fill) const {
     make(fill);
@@ -57,7 +56,7 @@ class SharedArray {
 
  private:
   friend class SharedArrays;
-  // The phase of an array, in shared memory.
+  // The state of an array, stored in shared memory.
   enum Progress : std::uint32_t { kEmpty, kClaimed, kReady, kFailed };
   using Flag = std::atomic<std::uint32_t>;
   static_assert(Flag::is_always_lock_free, "else it would be of one process alone");
@@ -65,8 +64,8 @@ class SharedArray {
   SharedArray(Flag* flag, std::byte* begin, std::size_t room)
       : flag_(flag), begin_(begin), room_(room) {}
   bool claim() const;
-  // Stores the result when it is destroyed, also after an exception, so that other processes see
-  // it.
+  // Publishes `result` to all processes when it is destroyed. After an exception, `result` is
+  // kFailed.
   class Claimed {
    public:
     explicit Claimed(Flag& flag) : flag_(flag) {}
@@ -84,27 +83,28 @@ class SharedArray {
   std::size_t room_ = 0;
 };
 
-// All arrays of a layout, in memory that the caller owns. Any number of processes, the *members*,
-// may have mapped this memory. All members compute the same data from one instance, so each member
-// computes a part of it. Immutable: any thread may read it.
+// All arrays of a layout, in memory that the caller owns and that several processes, the *members*,
+// have mapped. All members need the same data of one instance, so each member computes a part of
+// it. Immutable: any thread may read it.
 class SharedArrays {
  public:
-  // bytes(): the size of the memory for such arrays, in bytes. The first zero_bytes() bytes of it
-  // must be zero before the first member constructs a SharedArrays.
+  // bytes(): the size in bytes of the memory for all arrays of a layout. Its first zero_bytes()
+  // bytes must be zero before the first member constructs a SharedArrays.
   static std::size_t bytes(const ArrayLayout& layout);
   static std::size_t zero_bytes(const ArrayLayout& layout);
 
-  // `memory` must outlive this object. All members pass the same layout, and `member` numbers from
-  // 0 to `members` - 1. Throws std::invalid_argument if `memory` does not begin at a multiple of
-  // kAlignment.
+  // `memory` must outlive this object. All members must pass the same layout, and different numbers
+  // `member` from 0 to `members` - 1. Throws std::invalid_argument if `memory` does not begin at a
+  // multiple of kAlignment.
   SharedArrays(std::span<std::byte> memory, const ArrayLayout& layout, int member, int members);
 
-  // Returns no array (has_room() is false) if the layout does not contain it.
+  // The array with this kind and number. If the layout does not contain it, the result refers to no
+  // array.
   SharedArray array(ArrayKind kind, std::size_t number) const;
 
   int members() const { return members_; }
-  // The index in 0, ..., `count` - 1 at which this member should begin to compute `count` arrays.
-  // Each member begins at a different part.
+  // Of `count` arrays, the index of the array that this member should compute first. The members'
+  // first arrays are spread evenly, so that members seldom wait for one another.
   std::size_t first_of(std::size_t count) const {
     return count * static_cast<std::size_t>(member_) / static_cast<std::size_t>(members_);
   }
@@ -113,7 +113,7 @@ class SharedArrays {
 
  private:
   struct Room {
-    std::size_t begin;  // in memory_
+    std::size_t begin;  // offset in memory_
     std::size_t bytes;
     std::size_t flag;
   };

@@ -9,7 +9,7 @@ namespace grove::detail {
 ThreadTeam::ThreadTeam(int threads) {
   try {
     for (int i = 1; i < threads; ++i) others_.emplace_back([this, i] { serve(i); });
-  } catch (const std::system_error&) {  // continue with the threads that were created
+  } catch (const std::system_error&) {  // the team consists of the threads that were created
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A team of threads that runs one function at a time on all of its threads.
+// A fixed team of threads, which runs a function on all of its threads at once.
 #pragma once
 
 #include <condition_variable>
@@ -11,7 +11,7 @@
 
 namespace grove::detail {
 
-// Only the thread that constructed it may use it.
+// Only the thread that constructed the team may use it.
 class ThreadTeam {
  public:
   // `threads` >= 1 includes the caller's thread. If the system grants fewer threads, the team is
@@ -23,20 +23,20 @@ class ThreadTeam {
 
   int size() const { return static_cast<int>(others_.size()) + 1; }
 
-  // Calls work(i) on every thread i of the team, where the caller's is thread 0. Returns when all
-  // calls have returned. If a call threw an exception, then rethrows one of them.
+  // Calls work(i) on each thread i of the team, where the caller's thread has number 0. Returns
+  // when all calls have returned. If calls threw exceptions, rethrows one of these exceptions.
   void run(const std::function<void(int thread)>& work);
 
  private:
   void serve(int thread);
   void perform(const std::function<void(int thread)>& work, int thread);
 
-  std::mutex mutex_;  // guards all below, except others_
+  std::mutex mutex_;  // guards all members below except others_
   std::condition_variable begun_;
   std::condition_variable ended_;
   const std::function<void(int thread)>* work_ = nullptr;
   int round_ = 0;  // number of calls of run()
-  int busy_ = 0;   // other threads that still work in this round
+  int busy_ = 0;   // number of other threads that have not finished this round
   bool closed_ = false;
   std::exception_ptr thrown_;
   std::vector<std::thread> others_;

@@ -22,7 +22,7 @@ constexpr Tunable kTunables[] = {
 
 struct DeprecatedName {
   std::string_view name;
-  std::string_view now;  // the present name, or the value of the constant
+  std::string_view now;  // the current name, or the value of the constant
 };
 
 constexpr DeprecatedName kRenamed[] = {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tunable parameters of the search. Most defaults were chosen by measuring.
+// Tunable parameters of the search, with ranges and the measurements behind the defaults.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace grove::detail {
 
-// All parameters, as defined in tunables.def, each with its meaning and the evidence for its
-// default. No parameter changes what is proven. They change only the speed and the order of the
-// search. A value type.
+// The values of all parameters (tunables.def). Parameters affect the speed and the order of the
+// search, and which plan and bounds it reaches, but never the validity of a plan or bound. A value
+// type.
 struct Tuning {
   using int64_t = std::int64_t;
 #define GROVE_TUNABLE(type, name, value, min, max, meaning, evidence) type name = value;
@@ -29,22 +29,22 @@ struct Tunable {
   double min;
   double max;
   std::string_view meaning;
-  std::string_view evidence;  // for the default; empty: no measurement is on record
+  std::string_view evidence;  // measurement that supports the default; empty: none is on record
 
-  // The name on the command line: `member` with '-' for '_'.
+  // The name on the command line, which is `member` with '-' in place of '_'.
   std::string name() const;
-  // The value in `tuning`, as the shortest text that is exact.
+  // The parameter's value in `tuning`, as the shortest text that is parsed as exactly this value.
   std::string value(const Tuning& tuning) const;
 };
 
-// All parameters, in the order of the struct.
+// Descriptions of all parameters, in the order of the members of Tuning.
 std::span<const Tunable> tunables();
-// All names that set() accepts: those of tunables(), and deprecated ones.
+// All names that set() accepts: those of tunables() and the deprecated names.
 std::span<const std::string> accepted_tunable_names();
-// Sets one parameter from text such as "pair-expansions=20". The deprecated name of a parameter
-// sets the parameter; that of a former parameter, now a constant, accepts only its value. Throws
-// std::invalid_argument, with what was expected, if the parameter does not exist or the value is
-// not a number in its range.
+// Sets one parameter from text such as "pair-expansions=20". A deprecated name of a parameter sets
+// that parameter. For the name of a former parameter, which is now a constant, only the value of
+// the constant is accepted. Throws std::invalid_argument if the parameter does not exist or the
+// value is not a number in its range. what() states what was expected.
 void set(Tuning& tuning, std::string_view text);
 
 }  // namespace grove::detail

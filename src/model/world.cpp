@@ -7,7 +7,7 @@
 namespace grove::detail {
 namespace {
 
-// The reverse graph; rows in ascending order.
+// Returns the reverse graph, in which each row is in ascending order.
 CsrArray reversed(const CsrArray& rows) {
   std::vector<std::int32_t> first(static_cast<std::size_t>(rows.count()) + 1);
   for (const std::int32_t to : rows.items()) ++first[static_cast<std::size_t>(to) + 1];
@@ -30,7 +30,7 @@ bool same_sets(const CsrArray& a, const CsrArray& b) {
   return true;
 }
 
-// Row by row, the union of `a` and `b`.
+// Returns the union of `a` and `b`, row by row.
 CsrArray joined(const CsrArray& a, const CsrArray& b) {
   CsrArray both;
   for (std::int32_t row = 0; row < a.count(); ++row) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The graph that agents move on: places (what agents block), states, and moves between states.
+// World: the graph on which agents move. It has places, which agents block; states on these places;
+// and moves between states.
 #pragma once
 
 #include <cstddef>
@@ -11,26 +12,28 @@
 
 namespace grove::detail {
 
-// What one agent blocks: for example, a cell of a grid. Meaningful only together with its world.
+// The number of a place, which at most one agent occupies at a time, for example a cell of a grid.
+// A number has a meaning only in its world.
 using Place = std::int32_t;
 inline constexpr Place kNoPlace = -1;
 
-// A vertex of the graph that one agent moves on: its place, perhaps with a heading or with progress
-// of work. Meaningful only together with its world.
+// The number of a state, a vertex of an agent's motion graph: a place, in some worlds with a
+// heading or with the progress of a task execution. A number has a meaning only in its world.
 using State = std::int32_t;
 inline constexpr State kNoState = -1;
 
-// A discrete time or a duration, in steps.
+// A discrete time, or a duration, in steps.
 using Time = std::int32_t;
-// No time: later than every time in a plan. Adding small durations does not overflow.
+// Infinite time, which is later than every time in a plan. Adding a duration below 2^30 to it does
+// not overflow.
 inline constexpr Time kNever = 1 << 30;
 
 using TaskIndex = std::int32_t;  // position in Instance::tasks()
 
-// Rows of numbers in compressed sparse row format: all rows lie in one array.
+// Rows of numbers in compressed sparse row (CSR) format: one array contains all rows.
 class CsrArray {
  public:
-  // add() appends to the current row; end_row() ends the row.
+  // add() appends to the last row; end_row() completes that row.
   void add(std::int32_t item) { items_.push_back(item); }
   void end_row() { first_.push_back(static_cast<std::int32_t>(items_.size())); }
 
@@ -41,18 +44,18 @@ class CsrArray {
   std::span<const std::int32_t> items() const { return items_; }
 
  private:
-  std::vector<std::int32_t> first_{0};  // offset of each row, and the end of the last one
+  std::vector<std::int32_t> first_{0};  // by row: its offset; then the end of the last row
   std::vector<std::int32_t> items_;
 };
 
-// The states first, ..., end - 1.
+// The states `first`, ..., `end` - 1.
 struct StateRange {
   State first = 0;
   State end = 0;
 };
 
-// An agent's work on a task: `done` of the task's steps are done. `completed` is true when all are
-// done.
+// Progress of a task execution: `done` of the task's steps are done. `completed` is true if these
+// are all of its steps.
 struct Work {
   TaskIndex task = -1;
   Time done = 0;
@@ -60,12 +63,13 @@ struct Work {
   State base = kNoState;  // the base state in which the agent works
 };
 
-// The graph of an instance: places, states on these places, and moves of one step between states.
-// An agent may wait in every state; a wait is not a move (docs/design.md, section 1).
-// States belong to *kinds*, one for each way to move. No move leads from one kind to another. The
-// states 0, ..., place_count() - 1 are of kind 0, for agents that turn freely: each of them is
-// equal to its place. Grids and roadmaps have no other states. After the *base* states of all kinds
-// come the states of agents at work (motion_world.h).
+// The motion graph of an instance: places, states on these places, and moves between states. A move
+// takes one step. An agent may wait in every state; a wait is not a move (docs/design.md, section
+// 1).
+// Each state belongs to a *kind*, one for each way to move. No move leads from one kind to another.
+// Kind 0 is for agents that turn freely: its base states are 0, ..., place_count() - 1, and each is
+// equal to its place. Grids and roadmaps have no other states. The states of agents at work are
+// numbered after the *base* states of all kinds (motion_world.h).
 // Immutable: any thread may read it.
 class World {
  public:
@@ -75,31 +79,32 @@ class World {
   World& operator=(World&&) = default;
   virtual ~World() = default;
 
-  // Places and states are numbered 0, ..., count - 1.
+  // Places are numbered 0, ..., place_count() - 1, and states 0, ..., state_count() - 1.
   Place place_count() const { return places_; }
   State state_count() const { return moves_.count(); }
   Place place(State state) const {
     return state < places_ ? state : place_of_[static_cast<std::size_t>(state - places_)];
   }
 
-  // The successors of `state`, and its predecessors, by one move. A blocked cell has neither.
+  // moves(): the states to which a move leads from `state`. moves_to(): the states from which a
+  // move leads to `state`. Both are empty for a blocked cell.
   std::span<const State> moves(State state) const { return moves_[state]; }
   std::span<const State> moves_to(State state) const {
     return is_symmetric_ ? moves_[state] : moves_back_[state];
   }
-  // The places to which a move leads from `place`, or from which a move leads to it.
+  // The other places to which a move leads from `place`, or from which a move leads to `place`.
   std::span<const Place> neighbors(Place place) const {
     return has_other_neighbors_ ? neighbors_[place] : moves_[place];
   }
 
-  // The number of states on `place`, of all kinds and at work; 1 on grids and roadmaps. Their ranks
-  // are 0, ..., states_on(place) - 1.
+  // The number of states on `place`: base states of all kinds, and states at work. It is 1 on grids
+  // and roadmaps. rank_on_place() numbers these states 0, ..., states_on(place) - 1.
   int states_on(Place place) const {
     return states_are_places() ? 1 : bases_on_a_place_ + static_cast<int>(working_[place].size());
   }
   int max_states_on_a_place() const { return max_states_on_a_place_; }
   int rank_on_place(State state) const { return state < places_ ? 0 : rank_of(state); }
-  // Calls visit(state) for each state on `place`, in order of rank.
+  // Calls visit(state) for each state on `place`, in order of rank_on_place().
   template <class Visit>
   void for_each_state(Place place, Visit visit) const {
     visit(place);
@@ -109,30 +114,30 @@ class World {
     for (const State s : working_[place]) visit(s);
   }
 
-  // kind_count() includes kind 0. bases() returns the base states of a kind on a place.
+  // kind_count() includes kind 0. kind() of a state at work is the kind of its base state. bases()
+  // returns the base states of one kind on a place.
   int kind_count() const { return static_cast<int>(kinds_.size()); }
   int kind(State state) const { return state < places_ ? 0 : kind_of_base(base(state)); }
   StateRange bases(Place place, int kind) const {
     const Kind& k = kinds_[kind];
     return {k.first + place * k.on_a_place, k.first + (place + 1) * k.on_a_place};
   }
-  // The base state in which the agent works if `state` is a state of work, else `state` itself. The
-  // last state of work has the moves of its base state.
+  // If `state` is a state at work, the base state in which the agent works; otherwise `state`
+  // itself.
   State base(State state) const {
     return state < first_working_ ? state : work_[state - first_working_].base;
   }
   bool is_working(State state) const { return state >= first_working_; }
   // Precondition: is_working(state).
   const Work& work(State state) const { return work_[state - first_working_]; }
-  // The maximum number of steps from any base state of this kind to any other one on the same
-  // place.
+  // The maximum time from a base state of this kind to a different one on the same place.
   Time max_turn_time(int kind) const { return kinds_[kind].max_turn_time; }
 
   // True if every state is equal to its place.
   bool states_are_places() const { return state_count() == places_; }
-  // True if also every move can be undone in one step.
+  // True if every state is equal to its place, and every move can be undone in one step.
   bool is_plain() const { return is_symmetric_ && states_are_places(); }
-  // The number of cells in a row if the places are the cells of a grid; else 0.
+  // The width of the grid if the places are the cells of a grid; otherwise 0.
   Place row_width() const { return row_width_; }
   // The maximum number of moves from one state.
   int max_moves() const { return max_moves_; }
@@ -141,20 +146,22 @@ class World {
   virtual std::string name(State state) const = 0;
 
  protected:
-  // The states of one kind: `on_a_place` states on each place, place by place from `first` on.
+  // The base states of one kind: `on_a_place` states for each place, numbered place by place from
+  // `first` on.
   struct Kind {
     State first = 0;
     int on_a_place = 1;
     Time max_turn_time = 0;
   };
 
-  // A world with one state for each place. `moves` has one row for each place.
+  // Constructs a world with one state for each place. `moves` has one row for each place.
   explicit World(CsrArray moves);
-  // The same for the cells of a grid with `row_width` cells in a row. Every move can be undone.
+  // Constructs the world of a grid with `row_width` columns. `moves` has one row for each cell, and
+  // must contain the reverse of every move.
   World(CsrArray moves, Place row_width);
-  // A world with the places of `ground`, with further kinds of states, and with states at work.
-  // `work` describes the states after the base states of all kinds. `moves` has one row for each
-  // state.
+  // Constructs a world with the places of `ground`, more kinds of states, and states at work.
+  // `kinds`: all kinds, from kind 0 on. `work`: one entry for each state at work, in order of
+  // state. `moves` has one row for each state.
   World(const World& ground, std::vector<Kind> kinds, std::vector<Work> work, CsrArray moves);
 
  private:
@@ -169,14 +176,14 @@ class World {
   bool is_symmetric_ = true;
   bool has_other_neighbors_ = false;
   State first_working_;
-  CsrArray moves_;               // by state
-  CsrArray moves_back_;          // by state; empty if it would be equal to moves_
-  CsrArray neighbors_;           // by place; empty if it would be equal to moves_
-  CsrArray working_;             // by place: its states at work; empty if every state is its place
+  CsrArray moves_;       // by state
+  CsrArray moves_back_;  // by state; empty if it would be equal to moves_
+  CsrArray neighbors_;   // by place; empty if it would be equal to moves_
+  CsrArray working_;     // by place: its states at work; empty if every state is equal to its place
   std::vector<Place> place_of_;  // by state, from places_ on
   std::vector<Kind> kinds_{Kind{}};
   std::vector<Work> work_;               // by state, from first_working_ on
-  std::vector<std::int32_t> work_rank_;  // the same index: rank on its place
+  std::vector<std::int32_t> work_rank_;  // by state, from first_working_ on: rank on its place
 };
 
 }  // namespace grove::detail

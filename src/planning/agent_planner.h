@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Queries to a low level of CBS, and the interface of one that chooses the order of the tasks
-// itself.
+// Interface of a single-agent planner (low level of CBS) that chooses the order of the tasks
+// itself, and the queries that it answers.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@
 
 namespace grove::detail {
 
-// Outcome of a query.
+// Outcome of a path query.
 enum class PathOutcome : std::uint8_t {
   kFound,
-  kAboveCutoff,  // proven: no path costs `cutoff` or less (there may be none at all)
-  kInfeasible,   // proven: there is no path
-  kStopped,  // nothing is proven: a limit or label_limit was reached, the costs to go would be too
-             // large, or see known_sequences_only
+  kAboveCutoff,  // proven: every path costs more than `cutoff`, if one exists
+  kInfeasible,   // proven: no path exists
+  kStopped,  // nothing is proven: a limit of the run or label_limit was reached, the costs to go
+             // would become too large, or known_sequences_only excluded sequences
 };
 
 // Constraints and preferences for the path of one agent. All pointers and spans must stay valid
@@ -30,26 +30,28 @@ enum class PathOutcome : std::uint8_t {
 struct PathQuery {
   static constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
 
-  std::span<const Constraint> constraints = {};  // also satisfied while resting at the end
-  // Among the paths of equal cost that the search generates, it prefers few conflicts with these;
-  // null: no preference.
+  std::span<const Constraint> constraints = {};  // satisfied also by the final rest of the path
+  // Among paths of equal cost the search prefers those with few conflicts with these paths, as far
+  // as it generates them; nullptr: no preference.
   const ConflictAvoidanceTable* others = nullptr;
-  Time cutoff = kNever;  // paths of higher cost are of no use; kNever: any cost is accepted
-  std::int64_t label_limit = kUnlimited;  // about this many labels, then kStopped
+  Time cutoff = kNever;                   // greatest useful cost of a path; kNever: no limit
+  std::int64_t label_limit = kUnlimited;  // kStopped after about this many expanded labels
 
-  // Paths that must be avoided, in place of constraints; null: none.
+  // Paths that the path must not collide with; nullptr: none. If given, `constraints` is ignored.
   const ReservationTable* reservations = nullptr;
-  // Labels are popped in order of time + (1 + inflation_percent / 100) * cost to go. If it is not
-  // 0, the path found may not be of least cost; proofs remain valid.
+  // Labels are popped in order of time + (1 + inflation_percent / 100) * cost to go. If
+  // inflation_percent is not 0, the path found may cost more than the least cost; proofs remain
+  // valid.
   int inflation_percent = 0;
-  // Use only the sequences that the costs to go cover, at least one; kStopped if no path is found
-  // because of that. Another sequence may have a cheaper path.
+  // Restricts the search to the sequences that the costs to go cover. Another sequence may have a
+  // cheaper path. If no covered sequence has a path, the outcome is kStopped unless all sequences
+  // are covered.
   bool known_sequences_only = false;
 };
 
-// Interface of an exact single-agent planner. Grove's own is FreeOrderSipp; those of other methods
-// are in the layer `baselines`. One thread at a time. An implementation keeps its workspace between
-// calls, so reuse it.
+// Interface of an exact single-agent planner. Grove's own search uses FreeOrderSipp; the layer
+// `baselines` implements published planners. One thread at a time. An implementation keeps its
+// workspace between calls, so reuse it.
 class AgentPlanner {
  public:
   AgentPlanner() = default;
@@ -60,8 +62,8 @@ class AgentPlanner {
   // Finds a path of least cost from the start at time 0 that realizes some sequence of the class
   // and satisfies the constraints of `query`, if that cost is at most the cutoff. The path ends
   // when the agent comes to rest: its cost is path.size() - 1. Writes `path` only on kFound. May
-  // widen the costs to go of `goals`. Throws std::invalid_argument for a query that is invalid or
-  // that this planner does not support.
+  // widen the costs to go of `goals` (CostToGo::widen). Throws std::invalid_argument for a query
+  // that is invalid or that this planner does not support.
   virtual PathOutcome find(SequenceStages& goals, const PathQuery& query, const Limits& limits,
                            Path& path) = 0;
 

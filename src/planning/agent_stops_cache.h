@@ -9,8 +9,8 @@
 
 namespace grove::detail {
 
-// Each agent's AgentStops with their costs to go, made at the first request and kept. The tables of
-// many tasks are large, so the searches of one thread should share them. One thread at a time.
+// Stores the AgentStops of each agent, with its costs to go, from the first request on. Tables for
+// many tasks are large, so all searches of one thread should share one cache. One thread at a time.
 class AgentStopsCache {
  public:
   // `instance` and `distances` must outlive this.

@@ -12,15 +12,17 @@
 
 namespace grove::detail {
 
-// A monotone priority queue for small integers. Entries are popped by *layer* (an f value), then by
-// conflicts, then last in, first out. LIFO dives along a path and so prefers the larger time. All
-// operations are O(1), except for skipping empty layers.
+// A monotone priority queue for small integers. Entries are popped in ascending order of *layer*
+// (an f value), then of conflicts; among equals, the last one pushed is popped first. This order
+// follows one path in depth, so it prefers the larger time. All operations are O(1), except for
+// skipping empty layers.
 //
-// Entries live in one pool and are chained into lists: one per conflict count for the layer being
-// emptied, one per layer for the next kWindow layers, one for all layers beyond. Nothing is
-// allocated once the pool has grown to the size of the largest search so far.
+// Entries are stored in one pool and linked into lists: one per conflict count for the current
+// layer, one per layer for the next kWindow layers, one for all later layers. The pool keeps its
+// memory, so only a search that is larger than all earlier ones allocates.
 //
-// `Progress` is a number for the set of visited goals: a byte if goals come in a fixed order.
+// `Progress` is an integer that identifies the set of visited goals. One byte suffices if the order
+// of the goals is fixed.
 template <class Progress>
 class BasicBucketQueue {
  public:
@@ -43,7 +45,7 @@ class BasicBucketQueue {
   void push(Time layer, const Entry& entry);
   // Removes the next entry. Returns false if the queue is empty.
   bool pop(Entry& entry);
-  // The layer of the entry popped last.
+  // The layer of the entry popped last; after reset(), `first`.
   Time layer() const { return layer_; }
 
  private:
@@ -69,7 +71,7 @@ class BasicBucketQueue {
   Time window_begin_ = 0;
   Time window_used_ = 0;  // lists of window_ from here on are empty
   int level_ = 0;         // lists of current_ before this one are empty
-  int levels_used_ = 0;   // and those from here on
+  int levels_used_ = 0;   // lists of current_ from this one on are empty
   std::array<std::int32_t, kMaxConflicts + 1> current_;  // heads by conflicts
   std::array<std::int32_t, kWindow> window_;             // heads by layer - window_begin_
   std::int32_t beyond_ = kNone;
@@ -149,7 +151,7 @@ inline bool BasicBucketQueue<Progress>::next_layer() {
   return move_window();
 }
 
-// The window is empty: moves its begin to the first layer beyond it.
+// Moves the window, which is empty, to the first layer after it. Returns false if there is none.
 template <class Progress>
 inline bool BasicBucketQueue<Progress>::move_window() {
   if (beyond_ == kNone) return false;

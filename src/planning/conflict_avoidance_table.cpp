@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kMaxWaitConflicts = 1 << 20;
 constexpr int kFirstBits = 10;
-constexpr std::size_t kSparsity = 4;  // slots per key
+constexpr std::size_t kSparsity = 4;  // entries per key, at least
 
 }  // namespace
 
@@ -29,8 +29,8 @@ int ConflictAvoidanceTable::direction_on_roads(const World& world, Place from, P
   return std::min(static_cast<int>(std::ranges::find(neighbors, from) - neighbors.begin()), 3);
 }
 
-// Makes room for `steps` more keys. Moves the counts in use into a new generation, in the same
-// memory if that suffices. Counts of removed paths are dropped.
+// Ensures that `steps` more keys fit. If necessary, starts a new generation with the counts in use,
+// in the same memory if that suffices, and drops counts of removed paths.
 void ConflictAvoidanceTable::make_room(std::size_t steps) {
   if (kSparsity * (keys_ + steps) <= counts_.size()) return;
   in_use_.clear();
@@ -138,7 +138,7 @@ int ConflictAvoidanceTable::conflicts_of_waiting(Place place, Time first, Time l
 }
 
 int ConflictAvoidanceTable::conflicts_of_resting(Place place, Time time) const {
-  // A path that comes to rest after `time` is counted when it arrives.
+  // A path that comes to rest after `time` is counted by its visits up to its first time of rest.
   int count = first_rest_[place] <= time ? rests_before(place, time + 1) : 0;
   for (Time t = time + 1; t <= horizon_; ++t) count += visits(place, t);
   return count;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Conflict avoidance table: the paths of the other agents, as a tie-breaker of the low level, never
-// as a constraint.
+// Conflict avoidance table: counts conflicts with the paths of other agents. The low level breaks
+// ties by it; it never constrains a path.
 #pragma once
 
 #include <array>
@@ -12,37 +12,40 @@
 
 namespace grove::detail {
 
-// Counts the paths that use each (place, time) and each (move, time); fewer than 65,536 paths. A
-// hash table of the places and times on the paths, whatever the size of the map. It takes at least
-// 100 bytes per step of a path, and stays in the processor cache where a full table would not. One
-// thread at a time.
+// Counts the paths that use each (place, time) and each (move, time); fewer than 65,536 paths. It
+// is a hash table of the (place, time) pairs on the paths, so its size does not depend on the
+// number of time steps and places of the world. It takes at least about 100 bytes per step of a
+// path, and fits into the processor cache where a table of all pairs would not. One thread at a
+// time.
 class ConflictAvoidanceTable {
  public:
   // `world` must outlive this.
   explicit ConflictAvoidanceTable(const World& world);
 
-  // A path that is empty (an agent not yet planned) adds nothing.
+  // An empty path (of an agent that is not yet planned) adds nothing.
   void add(const Path& path);
   // `path` must have been added.
   void remove(const Path& path);
-  // Removes every path. O(size of what was added).
+  // Removes all paths. O(number of paths), amortized.
   void clear();
 
-  // Vertex and edge conflicts of arriving on `to` at time `time`, coming from `from` (a wait if
-  // they are equal).
+  // Number of vertex and edge conflicts of a step from `from` to `to` that arrives at `time` (a
+  // wait if both places are equal).
   int conflicts(Place from, Place to, Time time) const {
     const int count = vertex_conflicts(to, time);
     return from == to ? count : count + arrivals(from, time).from(to);
   }
-  // Only the vertex conflicts.
+  // Number of vertex conflicts of an agent on `place` at `time`.
   int vertex_conflicts(Place place, Time time) const {
     const int count = visits(place, time);
     return time > first_rest_[place] ? count + rests_before(place, time) : count;
   }
-  // The moves of paths to a place that arrive at a given time. Valid until the table is changed.
+  // The moves, of all paths in the table, that arrive on one place at one time. Valid until the
+  // table changes.
   class Arrivals {
    public:
-    // Number of paths that come from this neighbor: the edge conflicts of a move to the neighbor.
+    // Number of paths that arrive from this neighbor. A move to the neighbor in the same step has
+    // this number of edge conflicts.
     int from(Place neighbor) const {
       return moves_ == nullptr ? 0 : (*moves_)[direction(*world_, neighbor, place_)];
     }
@@ -61,23 +64,24 @@ class ConflictAvoidanceTable {
     if (const Counts* counts = counts_of(place, time)) arrivals.moves_ = &counts->moves;
     return arrivals;
   }
-  // Sum of the vertex conflicts of waiting on `place` from time `first` to time `last`.
+  // Number of vertex conflicts of an agent that waits on `place` from time `first` to time `last`,
+  // inclusive, summed over these times and cut off at 2^20.
   int conflicts_of_waiting(Place place, Time first, Time last) const;
-  // Conflicts of resting on `place` from `time` on: the number of times that a path is there after
-  // `time`, where resting there counts once.
+  // Number of conflicts of an agent that rests on `place` from `time` on: the number of (path,
+  // time) pairs on the place after `time`, where the final rest of a path counts once.
   int conflicts_of_resting(Place place, Time time) const;
-  // Sum of the conflicts of all steps of a path (not empty) and of its rest at the end.
+  // Number of conflicts of all steps of `path` (not empty) and of its final rest.
   int conflicts_of(const Path& path) const;
 
  private:
-  // The number of paths on a place at a time, and of those that just came from a neighbor, by
-  // direction.
+  // Number of paths on one place at one time, and of those that have just arrived from each
+  // neighbor, by direction.
   struct Counts {
     std::uint64_t key = 0;     // 0: never used
-    std::uint16_t visits = 0;  // 0: only removed paths were here
+    std::uint16_t visits = 0;  // 0: all paths that were here are removed
     std::array<std::uint16_t, 4> moves{};
   };
-  // The rest of a path. It is not counted step by step, because it is infinite.
+  // The final rest of a path. It has no entries by time step, because it never ends.
   struct Rest {
     Place place;
     Time since;
@@ -97,8 +101,8 @@ class ConflictAvoidanceTable {
   bool is_current(std::uint64_t key) const {
     return key >> (kTimeBits + kPlaceBits) == generation_;
   }
-  // Index of the direction of a move, 0 to 3: a different one for each neighbor. If there are more
-  // than four neighbors, several share the last index.
+  // Index of the direction of a move, 0 to 3, different for each neighbor. If a place has more than
+  // four neighbors, those from the fourth on share index 3.
   static int direction(const World& world, Place from, Place to) {
     if (world.row_width() == 0) return direction_on_roads(world, from, to);
     const Place delta = to - from;
@@ -107,8 +111,8 @@ class ConflictAvoidanceTable {
   }
   static int direction_on_roads(const World& world, Place from, Place to);
   // Index of the counts of a key, or of the free entry for it. Open addressing, at most a quarter
-  // full. The hash is the index into a full table, folded, so that neighbors at one time share a
-  // cache line.
+  // full. The hash is the index into a table of all (time, place) pairs, modulo the size, so that
+  // adjacent places at one time share a cache line.
   std::size_t slot(std::uint64_t key) const {
     const std::uint64_t place = key & ((std::uint64_t{1} << kPlaceBits) - 1);
     const std::uint64_t time = key >> kPlaceBits & kLastTime;
@@ -116,7 +120,7 @@ class ConflictAvoidanceTable {
     while (counts_[at].key != key && is_current(counts_[at].key)) at = (at + 1) & mask_;
     return at;
   }
-  // Returns nullptr if no path is there.
+  // Returns the counts of this place and time; nullptr if no path visits the place then.
   const Counts* counts_of(Place place, Time time) const {
     if (!may_be_visited(place, time)) return nullptr;
     const Counts& counts = counts_[slot(key(place, time))];
@@ -126,17 +130,17 @@ class ConflictAvoidanceTable {
     const Counts* counts = counts_of(place, time);
     return counts ? counts->visits : 0;
   }
-  // A filter in front of the hash table. Few places are visited at a given time, so this small
-  // array answers most queries. Bits of removed paths may stay set for a while.
+  // Filter in front of the hash table. Few places are visited at a given time, so this small array
+  // answers most queries. Bits of removed paths can remain set until the next generation.
   struct Visited {
     std::uint32_t generation = 0;
-    std::uint32_t times = 0;  // one bit per kTimesPerBit times, cyclic
+    std::uint32_t times = 0;  // bit t / kTimesPerBit % 32: visited at a time t?
   };
   static constexpr int kTimesPerBit = 8;
   static std::uint32_t time_bit(Time time) {
     return std::uint32_t{1} << (static_cast<std::uint32_t>(time) / kTimesPerBit % 32);
   }
-  // Returns false if no path is on this place at this time, except for paths that rest there.
+  // Returns false only if no path visits this place at this time. Final rests are not included.
   bool may_be_visited(Place place, Time time) const {
     const Visited& visited = visited_[place];
     return (visited.times & time_bit(time)) != 0 && visited.generation == generation_;
@@ -149,17 +153,17 @@ class ConflictAvoidanceTable {
   void begin_generation();
 
   const World& world_;
-  std::vector<Counts> counts_;    // a power of two
+  std::vector<Counts> counts_;    // hash table; its size is a power of two
   std::vector<Visited> visited_;  // by place
   std::size_t mask_;              // counts_.size() - 1
-  std::uint64_t stride_;  // of time; odd: on a place only times that differ by a multiple of the
-                          // size coincide
+  std::uint64_t stride_;  // factor of the time in the hash; odd, so that on one place only times
+                          // that differ by a multiple of the table size have the same hash
   std::uint64_t generation_ = 1;
-  std::size_t keys_ = 0;          // of this generation, including those of removed paths
+  std::size_t keys_ = 0;          // keys of this generation, including those of removed paths
   Time horizon_ = 0;              // no path added since the last clear() moves after this time
-  std::vector<Time> first_rest_;  // by place: when the first path comes to rest there
+  std::vector<Time> first_rest_;  // by place: earliest time at which a path comes to rest there
   std::vector<Rest> rests_;
-  std::vector<Counts> in_use_;  // scratch of make_room()
+  std::vector<Counts> in_use_;  // scratch memory for make_room()
 };
 
 }  // namespace grove::detail

@@ -26,7 +26,7 @@ constexpr std::array<Named, kConstraintKinds> kNames = {{
     {ConstraintKind::kStopIsNot, "stop-is-not", "sequence"},
 }};
 
-// One time step of rest represents all later ones, because the path does not change any more.
+// One time step after the end of the path represents all later ones, because the agent rests.
 bool avoids(const World& world, const Path& path, const Constraint& bar) {
   const Time last = std::min(bar.end, std::max(static_cast<Time>(path.size()), bar.begin));
   for (Time t = std::max(bar.begin, 0); t <= last; ++t) {
@@ -40,12 +40,12 @@ bool rests_by(const World& world, const Path& path, const Constraint& c) {
   return world.place(path.back()) == c.cell && last_arrival(world, path) <= c.end;
 }
 
-// Is the move to path[arrival], out of a corridor, the end of a traversal?
+// Does the move to path[arrival], which leaves a corridor, complete a traversal?
 bool ends_traversal(const World& world, const Path& path, Time arrival,
                     const Corridors& corridors) {
   const auto place = [&](Time t) { return world.place(path[t]); };
   const int corridor = corridors.corridor_of(place(arrival - 1));
-  Time before = arrival - 1;  // the last time before it was inside
+  Time before = arrival - 1;  // after the loop: the last time outside
   while (before >= 0 && corridors.corridor_of(place(before)) == corridor) --before;
   if (before < 0) return false;
   return place(before) != place(arrival) || place(before + 1) != place(arrival - 1);

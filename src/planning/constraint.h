@@ -15,27 +15,27 @@ namespace grove::detail {
 
 class Corridors;
 
-// The numbers are written to files and messages. A new kind takes the next number and a row in
-// constraint.cpp.
+// The numbers of the kinds are part of file formats and of messages between ranks. A new kind takes
+// the next number and a row in constraint.cpp.
 enum class ConstraintKind : std::uint8_t {
-  // The agent is not on the place `cell` (resting on it after the finish counts as being there) or,
-  // with `from` given, does not move from -> cell, at any time in [begin, end]. For a move this is
-  // the time of arrival.
+  // Without `from`: the agent is not on the place `cell` at any time in [begin, end]; resting there
+  // after the finish counts. With `from`: the agent makes no move from `from` to `cell` that
+  // arrives at a time in [begin, end].
   kVertexOrEdge = 0,
-  // The agent does not come to rest for ever on `cell` at `end` or earlier: if it ends there, it
-  // arrives there for the last time, by a move, later than `end`. (Target reasoning: Li et al.
-  // 2021.) `from` and `begin` are not used.
+  // The agent does not come to rest for ever on `cell` at `end` or earlier: if it rests there, it
+  // makes its last move to the place later than `end`. (Target reasoning: Li et al. 2021.) `from`
+  // and `begin` are not used.
   kNoRestBy = 1,
   // The agent comes to rest for ever on `cell`, at `end` or earlier. `from` and `begin` are not
   // used.
   kRestBy = 2,
-  // The agent does not leave a corridor (corridors.h) for its end `cell` by way of the inner place
-  // `from`, arriving at a time in [begin, end], after it entered the corridor from the other end
-  // and stayed inside since. Turning round inside and starting inside are not traversals.
+  // The agent does not traverse a corridor (corridors.h) such that it arrives on the end `cell`,
+  // from the inner place `from`, at a time in [begin, end]. A traversal enters at the other end and
+  // stays inside in between. An agent that turns round inside or starts inside makes no traversal.
   kNoTraversal = 3,
-  // Only in certificates: in the order in which the stops are counted, stop number `begin` (from 0)
-  // is stop `from`, or is not. They state the sequence class of a tree; nodes have no such
-  // constraint.
+  // Only in certificates: in the sequence of counted stops, position `begin` (from 0) holds stop
+  // `from` (kStopIs), or does not (kStopIsNot). These constraints state the sequence class of a
+  // tree. No constraint-tree node contains them.
   kStopIs = 4,
   kStopIsNot = 5,
 };
@@ -49,8 +49,9 @@ std::string_view split_name(ConstraintKind second);
 // Returns nullopt if no kind has this number.
 std::optional<ConstraintKind> constraint_kind(std::uint8_t number);
 
-// Vertex and edge constraints are those of CBS (Sharon et al. 2015), with time ranges as in Atzmon
-// et al. 2020. Times are inclusive.
+// Constraint on one agent; ConstraintKind defines its meaning. Vertex and edge constraints are
+// those of CBS (Sharon et al. 2015), with time ranges as in Atzmon et al. 2020. Times are
+// inclusive.
 struct Constraint {
   Cell cell = kNoCell;
   Cell from = kNoCell;
@@ -62,31 +63,32 @@ struct Constraint {
   friend bool operator==(const Constraint&, const Constraint&) = default;
 };
 
-// Is the constraint on the order of visits? One path may realize several orders.
+// Is the constraint about the order of visits? A path does not decide such a constraint, because it
+// can realize several orders.
 inline bool is_about_sequence(const Constraint& c) {
   return c.kind == ConstraintKind::kStopIs || c.kind == ConstraintKind::kStopIsNot;
 }
 
-// Does `path` (not empty), including its rest for ever, satisfy `c`? `c` must not be about the
-// sequence. O(length).
+// Does `path` (not empty), including its final rest, satisfy `c`? Throws std::invalid_argument if
+// `c` is about the sequence. O(path length).
 bool satisfies(const World& world, const Path& path, const Constraint& c,
                const Corridors& corridors);
 
-// A constraint and its agent.
+// A constraint and the agent that it constrains.
 struct AgentConstraint {
   AgentIndex agent = -1;  // -1: no agent is constrained
   Constraint constraint;
   friend bool operator==(const AgentConstraint&, const AgentConstraint&) = default;
 };
 
-// Does the constraint of one agent imply constraints on all others? A kRestBy bars all other agents
-// from the cell from its end on, because its agent rests there.
+// Does this constraint on one agent imply constraints on all other agents? kRestBy does: it bars
+// the other agents from `cell` from time `end` on, because its own agent rests there.
 inline bool constrains_all_agents(const Constraint& c) {
   return c.kind == ConstraintKind::kRestBy;
 }
 
-// The constraint that `added`, a constraint of a constraint-tree node, implies for `agent`. Returns
-// nullopt if there is none.
+// Returns the constraint that `added`, a constraint of a constraint-tree node, implies for `agent`.
+// Returns nullopt if it implies none.
 std::optional<Constraint> constraint_on(AgentIndex agent, const AgentConstraint& added);
 
 // Calls visit(agent, constraint) for each of `agents` for which `added` implies a constraint.

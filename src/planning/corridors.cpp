@@ -10,8 +10,9 @@ bool is_inner(const World& world, Place place) {
   return world.neighbors(place).size() == 2;
 }
 
-// Appends the places from `next` to the end of the row; the neighbor `before` lies behind. Returns
-// false if the row leads back to its origin; then the places appended are meaningless.
+// Follows the row from `next` away from its neighbor `before`, and appends the places up to the end
+// of the row. Returns false if the row is a ring; then the appended places are those of the ring
+// without `before`.
 bool walk_to_end(const World& world, Place before, Place next, std::vector<Place>& places) {
   const Place origin = before;
   while (next != origin) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Corridors of a world, doors included: rows of places in which an agent can only continue or turn
+// Corridors of a world, including doors: rows of places in which an agent can only continue or turn
 // round.
 #pragma once
 
@@ -12,9 +12,9 @@
 namespace grove::detail {
 
 // The corridors of a world. A corridor is a maximal row of places with exactly two neighbors, the
-// *inner* places, together with the two *ends* that they join, which have fewer or more neighbors.
-// A door between two rooms is a corridor of two moves. The two ends may be one place. A ring has no
-// end and is not a corridor. Immutable: any thread may read it.
+// *inner* places, together with the two *ends* that they join, which have fewer or more than two
+// neighbors. A door between two rooms is a corridor of two moves. The two ends can be the same
+// place. A ring has no end and is not a corridor. Immutable: any thread may read it.
 class Corridors {
  public:
   static constexpr int kNoCorridor = -1;
@@ -34,7 +34,7 @@ class Corridors {
   int position(Place inner) const { return position_[inner]; }
 
  private:
-  static constexpr int kSeen = -2;  // on a ring
+  static constexpr int kSeen = -2;  // position_ of places on a ring
 
   void add_corridor_through(const World& world, Place inner);
   void number_inner_places(int corridor);
@@ -42,7 +42,7 @@ class Corridors {
   std::vector<std::int32_t> corridor_of_;  // by place
   std::vector<std::int32_t> position_;     // by place
   std::vector<Place> places_;              // corridor after corridor
-  std::vector<std::int32_t> first_{0};     // by corridor; one more for the end of the last
+  std::vector<std::int32_t> first_{0};  // by corridor: index in places_; and one more for the end
 };
 
 }  // namespace grove::detail

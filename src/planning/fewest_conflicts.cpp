@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Problem: the low level prefers few conflicts among the paths that it generates, but it keeps one
-// label per safe interval and stage, the earliest. So it does not see where else a delay could
-// be spent.
+// Problem: the low level prefers few conflicts among the paths that it generates, but it keeps only
+// the earliest label per safe interval and stage. Therefore it does not consider other places where
+// the agent could spend a delay.
 //
-// Method: dynamic programming over the MDD, which has every path. The conflicts of a step depend
-// only on its two places and its time. So the fewest conflicts from each node to the end follow
-// from the layer after it, last layer first. The table is queried once per node (who else is there,
-// who arrives there next); all steps from the node use the answers.
+// Method: dynamic programming over the MDD, which represents every path. The conflicts of a step
+// depend only on its two places and its time. Therefore the fewest conflicts from a node to the end
+// follow from those of the next layer, and the layers are processed from last to first. The table
+// is queried once per node, for the paths on its place and for the paths that arrive there in the
+// next step; all steps from the node use the answers.
 #include "planning/fewest_conflicts.h"
 
 #include <limits>

@@ -11,8 +11,8 @@
 
 namespace grove::detail {
 
-// Breaks ties among paths of equal cost. One thread at a time. It keeps its workspace between
-// calls, so reuse it.
+// Breaks ties among the paths of an MDD, which have equal cost. One thread at a time. It keeps its
+// workspace between calls, so reuse it.
 class FewestConflicts {
  public:
   // Writes the path of `paths` (not empty) that has the fewest conflicts with `others`, as
@@ -32,7 +32,7 @@ class FewestConflicts {
 
   Best best_step(const Mdd& paths, NodeId node, ConflictAvoidanceTable::Arrivals arrivals) const;
 
-  std::vector<Best> best_;  // from each node to the end
+  std::vector<Best> best_;  // by node: the fewest conflicts from it to the end
   std::int64_t nodes_ = 0;
 };
 

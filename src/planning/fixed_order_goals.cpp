@@ -36,7 +36,7 @@ bool FixedOrderGoals::assign(const World& world, const GoalSequence& goals,
   return true;
 }
 
-// Keeps one gate per progress: the one that postpones furthest.
+// Stores one gate per progress: the one that postpones labels to the latest layer.
 void FixedOrderGoals::add_gate(State, Progress, Progress progress, Time time, Time until) {
   const Time after_goal = stages_[progress - 1].after_goal;
   const Time from = time + max_turn_time_ + after_goal;

@@ -1,38 +1,38 @@
 // SPDX-License-Identifier: MIT
-// Goals in a fixed order, for safe_interval_search.h.
+// Goals of a safe-interval search (safe_interval_search.h) in a fixed order.
 //
-// *Progress* is the number of goals visited, the last one not counted. Standing on the next goal
-// counts as visiting it whenever it happens (at time 0 too, and again if the goal after it is the
-// same place): visits are free, and a visit made removes no continuation. A goal that takes time is
-// visited when its work is completed. Work is begun only on the next goal; otherwise it would be
-// equivalent to waiting. One path through all goals is planned as one path, because planning leg by
-// leg with the earliest arrival of each is neither optimal nor complete.
+// *Progress* is the number of visited goals, not counting the last goal. An agent on its next goal
+// always visits it, also at time 0, and also the goal after it if that is the same place: a visit
+// costs nothing and removes no continuation. A goal that takes time is visited when its task
+// execution ends. The agent starts an execution only on its next goal; any other execution would be
+// equivalent to waiting. One search plans all legs together, because planning leg by leg with the
+// earliest arrival at each goal is neither optimal nor complete.
 //
 // *Heuristic.* f = t + h, where h = GoalSequence::distance is consistent, and exact without
 // constraints if agents turn freely.
 //
-// Two pruning rules follow from the order of goals that every path must keep:
+// Two pruning rules use the fixed order of the goals:
 //
-// *Deadlines.* If goal k is barred for ever after time d, a label of progress p <= k is of use only
-// if t + (distance on through goal k) <= d, that is f <= d + after_goal(k). Stage::latest of
-// progress p is the smallest right side over all k >= p. The constraint that the agent must rest by
-// t (kRestBy) is such a deadline of the last goal: a path of least cost finishes at most
-// longest_finish() later.
+// *Deadlines.* If goal k is barred for ever after time d, a label of progress p <= k can lead to a
+// path only if t + (distance through goals p to k) <= d, that is, f <= d + after_goal(k).
+// Stage::latest of progress p is the least d + after_goal(k) over all k >= p. A constraint that the
+// agent must rest by time r (kRestBy) also limits f, to r + longest_finish(), because a path of
+// least cost finishes at most longest_finish() after its last arrival.
 //
-// *Gates.* Let G be a label of goal k just visited, in interval [a, b], reached at time g. (If
-// agents turn, g is max_turn_time() later here; see stop_dominance.cpp.) Let L be a label that
-// has yet to visit goal k and cannot do so before g: f(L) >= g + after_goal(k). A path P through L
-// that visits goal k at some time <= b does so at a time in [g, b]. G could stand there then as
-// well, waiting, and from there on P is open to G. So L is needed only for paths that visit goal k
-// in a later interval, which begins at n, and they cost n + after_goal(k) or more. So L is
-// postponed to that f, and dropped if there is no later interval. *Claim: the rule loses no optimal
-// path.* *Proof.* As long as the finish has not been popped, some optimal path has an open label
-// that is no later than the path on one of its states and has a key (the f under which it is
-// queued) of at most the optimal cost. If L is that label and is postponed beyond the optimal cost,
-// then P changes over to G as above. The path through G costs the same, and the first label on it
-// that is not yet expanded has more progress than L had, so this ends. *Consequence.* With
-// unconstrained goals (b = kNever) the search decomposes into legs by itself. It remains exact if
-// the goals are constrained.
+// *Gates.* Let G be a label that has just visited goal k, at time g in the interval [a, b]. (If
+// agents turn, g is max_turn_time() later here; see stop_dominance.cpp.) Let L be a label that has
+// not visited goal k and cannot visit it before g: f(L) >= g + after_goal(k). If a path P through L
+// visits goal k at time b or earlier, this time is in [g, b]. The agent of G can wait on goal k
+// until then and continue like P. Therefore L is needed only for paths that visit goal k in a later
+// interval. If the next interval begins at n, these paths cost n + after_goal(k) or more, and L is
+// postponed to that f. If there is no later interval, L is dropped.
+// *Claim: the rule loses no optimal path.* *Proof.* Until the finish is popped, some optimal path P
+// has an open label that reaches one of the states of P no later than P does and whose key (the f
+// under which it is queued) is at most the optimal cost. If this label is L and is postponed beyond
+// the optimal cost, P can be replaced by a path through G as above. That path costs the same, and
+// its first unexpanded label has more progress than L, so only finitely many replacements follow.
+// *Consequence.* If no goal is constrained (b = kNever), the search decomposes into legs without
+// further rules. It remains exact if goals are constrained.
 #pragma once
 
 #include <cstdint>
@@ -43,6 +43,7 @@
 
 namespace grove::detail {
 
+// Goals of one GoalSequence, as template argument of SafeIntervalSearch. One thread at a time.
 class FixedOrderGoals {
  public:
   using Progress = std::uint8_t;
@@ -82,21 +83,21 @@ class FixedOrderGoals {
   void add_gate(State state, Progress before, Progress progress, Time time, Time until);
 
  private:
-  // Is the next goal after `progress` visited in this state? Most states are not base states on the
-  // goal's place, which is tested without access to the distances.
+  // Does an agent of this progress visit its next goal in this state? Most states are neither base
+  // states on the place of the goal nor states of work, so the test seldom reads the distances.
   bool is_at_goal(Progress progress, State state) const {
     const Stage& stage = stages_[progress];
     const auto rank = static_cast<std::uint32_t>(state) - static_cast<std::uint32_t>(stage.first);
     return (rank < stage.states || world_->is_working(state)) && stage.to_goal[state] == 0;
   }
 
-  // Data of one progress.
+  // Data for one value of progress.
   struct Stage {
     DistanceView to_goal;  // distances to the next goal
     State first;           // the first of the base states on its place
-    std::uint32_t states;  // and their number
+    std::uint32_t states;  // the number of these base states
     Time after_goal;
-    TaskIndex work;  // the task whose work is next; -1: none
+    TaskIndex work;  // the task that takes time at the next goal; -1: none
     Time latest;     // labels of greater f miss a deadline
     // A label of f >= gate_from is postponed to layer gate_until; kNever: it is dropped.
     Time gate_from;

@@ -24,9 +24,9 @@ class FixedOrderSipp {
 
   // Finds a path of least cost from goals.start() at time 0 that visits the goals in order and
   // satisfies the constraints of `query`, if that cost is at most the cutoff. The path ends when
-  // the agent comes to rest: its cost is path.size() - 1. Writes `path` only on kFound. Throws
-  // std::invalid_argument for more than 255 goals, for constraints that do not apply to a path of
-  // this world, and for reservations.
+  // the agent comes to rest: its cost is path.size() - 1. Writes `path` only on kFound. Ignores
+  // inflation_percent and known_sequences_only. Throws std::invalid_argument for more than 255
+  // goals, for constraints that SafeIntervals::assign() refuses, and for reservations.
   PathOutcome find(const GoalSequence& goals, const PathQuery& query, const Limits& limits,
                    Path& path);
 

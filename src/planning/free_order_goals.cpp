@@ -26,14 +26,14 @@ void FreeOrderGoals::find_deadlines(const SafeIntervals& intervals) {
 }
 
 // Computes the first time at which the agent may come to rest for ever on any of its places of
-// rest, and the stop on which it must rest, if there is only one. (With a destination the heuristic
-// already leads there.)
+// rest. Without a destination, also finds the stop on which a constraint forces it to rest. (With a
+// destination the heuristic already leads there.)
 void FreeOrderGoals::find_rests(const SafeIntervals& intervals) {
   const AgentStops& stops = goals_->stops();
   only_rest_ = AgentStops::kNoStop;
   first_rest_ = stops.destination() ? intervals.rest_begin(*stops.destination()) : kNever;
   if (stops.destination()) return;
-  if (stops.count() == 0) first_rest_ = 0;  // anywhere
+  if (stops.count() == 0) first_rest_ = 0;  // it may rest anywhere
   for (int stop = 0; stop < stops.count(); ++stop) {
     first_rest_ = std::min(first_rest_, intervals.rest_begin(stops.place(stop)));
     if (stops.rests_on_last_stop() && stops.place(stop) == intervals.only_rest()) only_rest_ = stop;

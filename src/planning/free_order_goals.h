@@ -1,33 +1,35 @@
 // SPDX-License-Identifier: MIT
-// All sequences of a class at once, for safe_interval_search.h. Progress is a stage: what is left
-// to visit (sequence_stages.cpp: visiting a stop that may be counted counts it). So one search
-// solves what the low levels of multi-goal CBS split into orders and paths (MGCBS: Tang et al.,
-// IJCAI 2024). The heuristic is the exact cost to go from the sequence graph.
+// Goals of a safe-interval search (safe_interval_search.h) over all sequences of a class at once.
+// Progress is a stage, which is the set of stops left to visit (sequence_stages.cpp). One search
+// therefore finds the order and the path, which the low level of multi-goal CBS computes separately
+// (MGCBS: Tang et al., IJCAI 2024). The heuristic is the exact cost to go from the sequence graph.
 //
 // *Heuristic.* h(state) = minimum over the stops u that may be next of dist(state, u) + cost to go
 // from u. It is exact without constraints if the costs to go cover all sequences. If nothing is
 // left, h is the distance to the destination, or without one to the nearest stop where the agent
 // may rest.
 //
-// *Target reasoning.* "Rests on v by t" (kRestBy) leaves one place to rest, and the heuristic is at
-// least the distance to it. The cutoff of t that it implies is applied by the caller of the search.
+// *Target reasoning.* A constraint to rest on v by t (kRestBy) leaves v as the only place of rest,
+// and the heuristic is at least the distance to v. FreeOrderSipp applies the cutoff that the
+// constraint implies.
 //
-// *Cap.* Labels of f > cap are dropped, and also labels in stages that the costs to go do not
-// cover. is_complete() returns whether no such label was dropped. What that proves:
-// free_order_sipp.cpp.
+// *Cap.* Labels of f > cap are dropped, and so are labels in stages that the costs to go do not
+// cover. is_complete() returns false if a dropped label could have led to a path. The head of
+// free_order_sipp.cpp states what each result proves.
 //
-// *Deadlines.* If a stop is barred for ever after time d, a label that has this stop left is of use
-// only if t + dist(state, stop) <= d.
+// *Deadlines.* If a stop is barred for ever after time d, a label that has this stop left can lead
+// to a path only if t + dist(state, stop) <= d.
 //
-// *Gates.* A label is postponed, or dropped, if labels that were expanded on stops dominate it for
-// all its continuations (stop_dominance.cpp).
+// *Gates.* Labels that were expanded on stops dominate continuations of other labels
+// (stop_dominance.cpp). A label is postponed to the least f of a continuation that is not
+// dominated, and dropped if there is none.
 //
-// *Inflation.* With a weight on the cost to go (weighted A*: Pohl 1970) labels are popped in
-// another order. Labels are still dropped by t + h and by gates, and neither argument depends on
-// the order. So the first finish is a path within the cap, but perhaps not the cheapest, and a
-// proof that there is none remains valid. No path costs less than the first rest, so f is raised to
-// it here. Thus an agent that has to wait long at its destination goes there first, and the search
-// does not expand everything that can be done in the meantime.
+// *Inflation.* With a weight on the cost to go (weighted A*: Pohl 1970) labels are popped in a
+// different order. Labels are still dropped by t + h and by gates, and neither argument depends on
+// the order. Therefore the first finish is a path within the cap, perhaps not a cheapest one, and a
+// proof that no path exists remains valid. No path costs less than the first rest, so with a weight
+// f is raised to it. As a result, an agent that must wait long for its place of rest goes there
+// first, and the search does not expand all labels that are possible during the wait.
 #pragma once
 
 #include <algorithm>
@@ -41,19 +43,21 @@
 
 namespace grove::detail {
 
+// Goals of one sequence class, as template argument of SafeIntervalSearch. One thread at a time.
 class FreeOrderGoals {
  public:
   using Progress = SequenceStages::StageId;
 
   // `goals` must outlive the search. Returns false if a quick test proves that there is no path.
   bool assign(SequenceStages& goals, SafeIntervals& intervals, int inflation_percent);
-  // Continues with the same class over other costs to go.
+  // Replaces the stages by `goals`, which has the same class but different costs to go.
   void set_stages(SequenceStages& goals) { goals_ = &goals; }
   SequenceStages& stages() const { return *goals_; }
 
   // Starts a search that drops labels of f > cap. Resets is_complete() and the gates.
   void begin(Time cap);
-  // Was no label dropped that could matter? Then "no path found" proves that there is none.
+  // True if no dropped label could have led to a path. Then a search without result proves that no
+  // path exists.
   bool is_complete() const {
     return !dropped_by_cap_ &&
            (!dropped_uncovered_ || goals_->cost_to_go().outside_bound() == kNever);
@@ -97,7 +101,7 @@ class FreeOrderGoals {
   void find_rests(const SafeIntervals& intervals);
   bool misses_deadline(Progress stage, State state, Time time) const;
   Time postponed_layer_by_gates(Progress stage, State state, Time time, Time layer);
-  // Lower bound on the cost of a path from here on.
+  // Lower bound on the steps from the state to the finish.
   Time distance(Progress stage, State state) const {
     const Time distance = goals_->distance(stage, state);
     if (only_rest_ == AgentStops::kNoStop) return distance;
@@ -113,7 +117,7 @@ class FreeOrderGoals {
   int inflation_percent_ = 0;
   std::vector<Deadline> deadlines_;
   Time first_rest_ = 0;
-  int only_rest_ = AgentStops::kNoStop;  // without a destination: the stop of kRestBy
+  int only_rest_ = AgentStops::kNoStop;  // without a destination: the only stop of rest (kRestBy)
   StopDominance gates_;
   Time cap_ = 0;
   bool dropped_by_cap_ = false;  // a label was dropped by the cap

@@ -1,58 +1,58 @@
 // SPDX-License-Identifier: MIT
 // Low level of CBS over all sequences of a class at once. It runs one safe-interval search
-// (safe_interval_search.h, free_order_goals.h) with a cap on f. If that is not conclusive, it
+// (safe_interval_search.h, free_order_goals.h) with a cap on f. If the result is not conclusive, it
 // widens the costs to go and searches again.
 //
 // *Exactness with a bounded graph.* The costs to go cover every sequence of cost less than
-// outside_bound(). The search drops labels in stages that they do not cover, and labels of f >
-// outside_bound(). *Claim: no path that costs less than outside_bound() is lost.* *Proof.* Let P be
-// such a path that realizes a sequence of the class. Counting as early as possible, P realizes a
-// sequence s of the class, too. P visits the stops of s in this order, so s costs at most cost(P) <
-// outside_bound(). Hence all stages of s are covered with their exact costs to go, and these are at
-// most what P still pays. So every label along P has t + h <= cost(P). Instead of P's label the
-// search may hold an earlier one of the same state, interval and stage. Then the path to that
-// label, a wait, and the remainder of P after it form again a path of the class that costs at most
-// as much as P, and the argument holds for this path. So it does not matter which other paths the
-// graph misses. The same holds for deadlines and for the dominance rule (free_order_goals.h,
-// stop_dominance.cpp): P continues from the label that is kept.
+// outside_bound(). The search drops labels in stages that the costs to go do not cover, and labels
+// of f > outside_bound(). *Claim: no path that costs less than outside_bound() is lost.* *Proof.*
+// Let P be such a path that realizes a sequence of the class. If P counts each stop as early as
+// possible, it realizes a sequence s of the class, too. P visits the stops of s in this order, so s
+// costs at most cost(P) < outside_bound(). Hence all stages of s are covered with their exact costs
+// to go, which are at most the remaining cost of P. Therefore every label along P has t + h <=
+// cost(P). Instead of P's label the search can hold an earlier one of the same state, interval and
+// stage. The path to that label, a wait, and the remainder of P form a path of the class that costs
+// at most as much as P, and the argument holds for this path. Sequences that the graph does not
+// cover play no part in the argument. It also holds with deadlines and with the dominance rule
+// (free_order_goals.h, stop_dominance.cpp), because P can continue from the label that is kept.
 //
-// *Consequence.* A path found that costs at most outside_bound() is optimal, because a cheaper one
-// would not have been lost. If none is found, every path costs at least outside_bound(). Then the
-// graph is extended and the search restarts, unless the cutoff is below outside_bound():
-// kAboveCutoff. If no label was dropped for its f or for its stage, the search was exhaustive:
-// kInfeasible, whatever the graph.
+// *Consequence.* If the search finds a path that costs at most outside_bound(), this path is
+// optimal, because the search loses no cheaper path. If it finds none, every path costs at least
+// outside_bound(). If the cutoff is below outside_bound(), the outcome is then kAboveCutoff;
+// otherwise the graph is extended and the search restarts. If no label was dropped for its f or its
+// stage, the search was exhaustive, and the outcome is kInfeasible for any graph.
 //
-// *Graphs by direct legs* (sequence_dag.cpp) represent paths instead of sequences: all stages of
-// each path of the class that costs less than outside_bound(), with stops counted as early as
-// possible, and with costs to go that are at most what the path still pays. So every label along P
-// has t + h
-// <= cost(P) there as well, and the rest of the argument is the same.
+// *Graphs by direct legs* (sequence_dag.cpp) represent paths instead of sequences. Such a graph
+// covers all stages of each path of the class that costs less than outside_bound() and counts stops
+// as early as possible, and its costs to go are at most the remaining cost of the path. Therefore
+// every label along P has t + h <= cost(P) there as well, and the rest of the argument is the same.
 //
 // *Early termination.* No path costs less than the first rest, so a path of exactly that cost is
-// optimal whatever its sequence. If the first rest is later than outside_bound(), labels are kept
-// up to the first rest.
+// optimal, no matter which sequence it realizes. If the first rest is later than outside_bound(),
+// labels are kept up to the first rest.
 //
 // *Late costs.* If places are barred for ever, the plain costs to go ignore the detour around them,
-// and a search that they mislead tries all orders. So once per hard call, and before the costs to
-// go are extended, the costs of the legs are recomputed (late_costs.cpp). If the best sequence
-// costs more with these legs, the search restarts with separate costs to go over them. All of the
-// above holds with these costs in place of the plain ones: a path through the stops of s costs at
-// least as much as s, and from any of its stages on at least the cost to go.
+// and a search that uses them can try all orders. So once per hard call, and before the costs to go
+// are widened, the costs of the legs are recomputed (late_costs.cpp). If the best sequence costs
+// more with the new legs, the search restarts with separate costs to go over the new legs. All of
+// the above holds for the late costs in place of the plain ones, because a path through the stops
+// of s costs at least as much as s, and from any of its stages on at least the cost to go.
 //
-// *Cutoff.* Labels of f > cutoff are dropped. Then kAboveCutoff proves only that no path costs the
-// cutoff or less. The constraint that the agent comes to rest by t (kRestBy) acts as a cutoff of t
-// plus the time that the agent may have to turn and work there afterwards. But then "above the
-// cutoff" means infeasible: for each path that comes to rest in time there is one that is equal up
-// to then and finishes without waiting.
+// *Cutoff.* Labels of f > cutoff are dropped. Therefore kAboveCutoff proves only that no path costs
+// the cutoff or less. A constraint that the agent comes to rest by t (kRestBy) acts as a cutoff of
+// t plus the longest time that the agent needs for turns and task executions after its last
+// arrival. If no path is within this cutoff, the outcome is kInfeasible: for each path that comes
+// to rest in time there is one that is equal until then and finishes without waiting.
 //
-// *Known sequences.* A heuristic that accepts any good path may restrict itself to the known
-// sequences. Then the cap is the cutoff itself. A path found realizes a known sequence. If none is
-// found, nothing is proven unless all sequences are known.
+// *Known sequences.* A primal heuristic that accepts any good path can restrict the search to the
+// sequences that the costs to go cover. The cap is then the cutoff itself. If the search finds no
+// path, this proves nothing unless the costs to go cover all sequences.
 //
-// *Feasibility check.* An infeasible call can visit all 2^n sets of stops: with time windows the
-// question is NP-hard. The same holds for calls whose cost is far above the cutoff. Most of them
-// are due to a door that is closed before or behind the agent. So once per hard call
-// single_stop_bound.cpp computes a lower bound on the cost from each stop separately.
+// *Feasibility check.* An infeasible call can visit all 2^n sets of stops, because with time
+// windows the decision problem is NP-hard. The same holds for calls in which the least cost is far
+// above the cutoff. Most such calls are due to a door that is closed before or behind the agent. So
+// once per hard call single_stop_bound.cpp computes a lower bound on the cost from each stop
+// separately.
 //
 // *Measured* on the benchmark's 32x32 maps with obstacles (nine other agents, one core, median of a
 // call in microseconds):
@@ -77,8 +77,8 @@
 namespace grove::detail {
 namespace {
 
-// After this many expansions in one call, or before the costs to go are extended a second time, it
-// pays to check whether each stop can be visited at all, or within the cutoff.
+// Number of expansions in one call after which the feasibility check pays off. The check also runs
+// before the costs to go are extended a second time.
 constexpr std::int64_t kExpansionsBeforeCheck = 1 << 12;
 // After this many expansions in one call the costs of the legs are recomputed. Both the expansions
 // and the recomputation take some milliseconds.
@@ -113,13 +113,13 @@ class FreeOrderSipp::Workspace {
   SingleStopBound visit_check_;
   LateStages late_goals_;
 
-  // Of the current call.
+  // Data of the current call.
   const ConflictAvoidanceTable* others_ = nullptr;
   const Limits* limits_ = nullptr;
   Path* path_ = nullptr;
-  Time latest_ = 0;                                // largest cost of a useful path,
-  PathOutcome above_ = PathOutcome::kAboveCutoff;  // and the outcome if every path costs more
-  // Values of expanded() at which to abort, to call check_feasibility(), and to call
+  Time latest_ = 0;                                // greatest cost of a useful path
+  PathOutcome above_ = PathOutcome::kAboveCutoff;  // outcome if every path costs more than latest_
+  // Values of expanded() at which find_within() aborts, calls check_feasibility(), and calls
   // recompute_costs().
   std::int64_t abort_at_ = 0;
   std::int64_t check_feasibility_at_ = 0;
@@ -196,9 +196,9 @@ PathOutcome FreeOrderSipp::Workspace::find_any() {
   }
 }
 
-// Searches for a path of cost at most `cap`. A path found has least cost if it costs at most
-// outside_bound(). Returns nullopt if the goals changed in the meantime and the search must
-// restart.
+// Searches for a path of cost at most `cap`. A path that it finds has least cost if it costs at
+// most outside_bound(). Returns nullopt if recompute_costs() replaced the stages and the search
+// must restart.
 std::optional<PathOutcome> FreeOrderSipp::Workspace::find_within(Time cap) {
   const bool all_known = goals().cost_to_go().outside_bound() == kNever;
   const SequenceStages::StageId first = goals().first_stage();
@@ -225,8 +225,8 @@ std::optional<PathOutcome> FreeOrderSipp::Workspace::find_within(Time cap) {
   }
 }
 
-// Feasibility check, at most once per call. Returns the outcome if it is proven that there is no
-// path, or none of cost at most latest_, or if a limit was reached; otherwise nullopt.
+// Feasibility check, at most once per call of find(). Returns the outcome if it proves that no path
+// exists or that every path costs more than latest_, or if a limit was reached; otherwise nullopt.
 std::optional<PathOutcome> FreeOrderSipp::Workspace::check_feasibility() {
   if (check_feasibility_at_ == kNotAgain) return std::nullopt;
   check_feasibility_at_ = kNotAgain;
@@ -237,8 +237,8 @@ std::optional<PathOutcome> FreeOrderSipp::Workspace::check_feasibility() {
   return min_cost > latest_ ? std::optional(above_) : std::nullopt;
 }
 
-// Recomputes the costs of the legs, at most once per call. Returns true if the search must restart
-// with the new costs to go.
+// Recomputes the costs of the legs, at most once per call of find(). Returns true if the search
+// must restart with the new costs to go.
 bool FreeOrderSipp::Workspace::recompute_costs() {
   if (recompute_costs_at_ == kNotAgain) return false;
   recompute_costs_at_ = kNotAgain;

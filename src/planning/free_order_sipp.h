@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Low level of CBS that chooses the order of the tasks itself.
+// Low level of CBS that chooses the order of the tasks together with the path.
 #pragma once
 
 #include <cstdint>

@@ -10,13 +10,14 @@
 
 namespace grove::detail {
 
-// The goals of one agent under a complete task sequence: its stops in that order, then its place of
-// rest. If the agent rests on its last stop, that stop is the last goal. Never empty. The agent
-// finishes when it rests on the last goal after visiting all goals before it, in order.
+// The goals of one agent under a complete task sequence: its stops in the order of the sequence,
+// then its place of rest. If the agent rests on its last stop, that stop is the last goal. There is
+// at least one goal. The agent finishes when it rests on the last goal after visiting all goals
+// before it, in order.
 class GoalSequence {
  public:
-  // `stops`: all stops of the agent in the order of visits. `instance` and `distances` must outlive
-  // this.
+  // `stops`: the tasks of all stops of the agent, in the order of visits. `instance` and
+  // `distances` must outlive this.
   GoalSequence(const Instance& instance, const DistanceFields& distances, AgentIndex agent,
                const std::vector<TaskIndex>& stops);
 
@@ -25,10 +26,10 @@ class GoalSequence {
   // Place of goal k; kNoPlace if the agent may rest on any of several places.
   Place goal(int k) const { return goals_[checked(k)]; }
   Place last() const { return goals_.back(); }
-  // The task that takes time at goal k; -1 if there is none.
+  // The task at goal k if it takes time, else -1.
   TaskIndex work(int k) const { return work_[checked(k)]; }
   bool has_work() const { return has_work_; }
-  // See AgentStops.
+  // See AgentStops::longest_finish().
   Time longest_finish(Place place) const;
   Time max_turn_time() const { return max_turn_time_; }
 
@@ -58,7 +59,7 @@ class GoalSequence {
   std::vector<TaskIndex> work_;
   std::vector<Time> durations_;
   std::vector<DistanceView> to_goal_;
-  std::vector<Time> after_goal_;  // from goal k through the rest
+  std::vector<Time> after_goal_;  // least steps from goal k through all later goals
 };
 
 }  // namespace grove::detail

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Depth-first search over pairs of nodes of the same layer. Each agent is where its node says, and
-// its next steps depend only on its own node. So two walks to the same pair have the same future,
-// and each pair is expanded once. After its last layer an agent stays on the node it ended on.
+// Depth-first search over pairs of nodes of the same layer. A node determines the place of its
+// agent, and the next steps of an agent depend only on its own node. Therefore two walks to the
+// same pair have the same continuations, and each pair is expanded once. After the last layer of
+// its MDD an agent stays on its last node.
 //
-// *Definition.* A layer t is a *contact* if the agents could collide there: both MDDs have a path
-// on the same place at t, or the MDDs allow a swap from t - 1 to t. (The test uses the places of
-// whole layers, so it also reports contacts that no pair of nodes has. That does no harm.)
+// *Definition.* A layer t is a *contact* if the agents could collide there: both MDDs have a node
+// on the same place at t, or the agents could swap places from t - 1 to t. (The test uses the
+// places of whole layers, so it also reports contacts that no pair of nodes has. Such a contact
+// only makes the search longer.)
 //
-// *Start.* Before the first contact f nothing can collide, so any node of layer f - 1 of one MDD
-// can be combined with any node of the other. The search starts from exactly these pairs.
+// *Start.* Before the first contact f the agents cannot collide, so each node of layer f - 1 of one
+// MDD can be combined with each node of that layer of the other. The search starts from exactly
+// these pairs.
 //
-// *End.* From the last contact on nothing can collide any more. A pair that reaches it proves that
-// the agents are independent, because every node leads to the end. If no pair reaches it, all pairs
-// are dead ends, and the agents are dependent.
+// *End.* After the last contact the agents cannot collide. If the search reaches a pair in the
+// layer of the last contact, the agents are independent, because every node leads to the end of its
+// MDD. If it reaches no such pair, all pairs are dead ends, and the agents are dependent.
 #include "planning/joint_mdd_search.h"
 
 #include <algorithm>
@@ -76,7 +79,7 @@ class PairSet {
       if (entry.generation == generation_) entries_[place_of(entry.key)] = entry;
   }
 
-  std::vector<Entry> entries_;  // a power of two
+  std::vector<Entry> entries_;  // hash table; its size is a power of two
   std::uint32_t generation_ = 1;
   std::size_t size_ = 0;
 };
@@ -113,7 +116,7 @@ class JointMddSearch::Workspace {
   PairSet known_;
   std::vector<Pair> open_;
   std::int64_t expanded_ = 0;
-  // By parity of the time, then place: stamp_ + the time at which a_ was last seen there.
+  // By parity of the time, then place: stamp_ + the last time at which a_ has a node there.
   std::array<std::vector<std::int64_t>, 2> seen_;
   std::int64_t stamp_ = 1;
 };
@@ -138,7 +141,7 @@ Dependence JointMddSearch::Workspace::find(const Mdd& a, const Mdd& b, std::size
   max_pairs_ = max_pairs;
   find_contacts();
   if (first_contact_ == kNever) return Dependence::kIndependent;
-  if (first_contact_ == 0) return Dependence::kDependent;  // they start on one cell
+  if (first_contact_ == 0) return Dependence::kDependent;  // they start on the same place
   known_.clear();
   const Time before = first_contact_ - 1;
   const Range of_a = nodes_at(a, before);
@@ -180,8 +183,8 @@ bool JointMddSearch::Workspace::is_contact(Time time) const {
   return false;
 }
 
-// Returns kDependent if no pair that is reachable from `first` and was not known before reaches the
-// last contact.
+// Returns kDependent if no pair in the layer of the last contact is reachable from `first` through
+// pairs that were not known before.
 Dependence JointMddSearch::Workspace::search(Pair first, const Limits& limits) {
   open_.clear();
   if (!known_.insert(first.a, first.b)) return Dependence::kDependent;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Joint MDD search: do two agents have paths in their MDDs that do not collide?
+// Joint MDD search: decides whether two agents have paths in their MDDs that do not collide.
 #pragma once
 
 #include <cstddef>
@@ -12,15 +12,15 @@
 namespace grove::detail {
 
 // Result for two agents and their MDDs. If the MDDs hold all optimal paths under the agents'
-// constraints, kDependent proves that any two paths that satisfy the constraints and do not collide
-// cost at least 1 more than the two optima together.
+// constraints, kDependent proves that two paths that satisfy the constraints and do not collide
+// cost together at least 1 more than the sum of the two optima.
 enum class Dependence : std::uint8_t {
   kIndependent,  // some path of a and some path of b do not collide
-  kDependent,    // proven: all pairs collide
-  kUnknown,      // `max_pairs` or a limit was reached
+  kDependent,    // proven: every path of a collides with every path of b
+  kUnknown,      // `max_pairs` was exceeded or a limit was reached
 };
 
-// The joint search of two MDDs from CBS with the WDG heuristic (Li et al., IJCAI 2019). The proof
+// The joint search over two MDDs from CBS with the WDG heuristic (Li et al., IJCAI 2019). The proof
 // is at the head of joint_mdd_search.cpp. One thread at a time. It keeps its workspace between
 // calls, so reuse it.
 class JointMddSearch {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sparse storage for the labels of a search that reaches few of very many stages.
+// Sparse storage for the labels of a search that reaches only few of many possible stages.
 #pragma once
 
 #include <sys/mman.h>
@@ -17,23 +17,23 @@
 
 namespace grove::detail {
 
-// One *plane* of labels, indexed by slot, for each state (here: progress or stage) that a search
-// reaches. Planes are made when first needed and reused from search to search. Nothing is cleared:
-// a label of an earlier search has an earlier stamp. Memory to which no label was written is never
-// touched, so on a large map a plane costs only the pages that searches have used; when that may be
-// much, the memory is released. `Label` is any trivial type with a `stamp`, which the search must
-// set when it sets the other members.
+// Holds one *plane* of labels, indexed by slot, for each "state" that a search reaches; a state
+// here is a progress or stage, not a state of a World. Planes are allocated on demand and reused by
+// later searches. No label is cleared, because a label of an earlier search has an earlier stamp.
+// On a large map a plane occupies only the memory pages in which a label was accessed. The memory
+// is released when searches have used many pages. `Label` is any trivial type with a member
+// `stamp`, which the search must set together with the other members. One thread at a time.
 template <class Label>
 requires std::is_trivial_v<Label> && std::same_as<decltype(Label::stamp), std::uint32_t>
 class LabelPlanes {
  public:
-  // Forgets all labels.
+  // Discards all labels. `slots`: number of slots in the next search.
   void begin_search(int slots) {
     if (touched_groups_ > kGroupsKept) release_memory();
     if (static_cast<std::size_t>(slots) > capacity_) {
       release_memory();
-      // Little spare capacity at first, because memory may be short. Later it grows by half,
-      // because with reservations the number of slots grows path by path.
+      // At first the spare capacity is small, because memory may be short. Later the capacity grows
+      // by half, because with reservations the number of slots grows with each path.
       const std::size_t tight =
           static_cast<std::size_t>(slots) + static_cast<std::size_t>(slots) / 8 + kSpare;
       capacity_ = std::max(tight, capacity_ + capacity_ / 2);
@@ -49,8 +49,8 @@ class LabelPlanes {
     exhausted_ = false;
   }
 
-  // Makes sure that the state has a plane. Returns false, and exhausted() becomes true, if memory
-  // is refused.
+  // Ensures that the state has a plane. Returns false, and exhausted() becomes true, if the memory
+  // for it is not available.
   bool open(std::int32_t state, const Limits& limits) {
     if (static_cast<std::size_t>(state) < by_state_.size() && by_state_[state].stamp == stamp_)
       return true;
@@ -58,7 +58,7 @@ class LabelPlanes {
   }
   bool exhausted() const { return exhausted_; }
 
-  // The state must be open: see open().
+  // open() must have returned true for the state in this search.
   Label& label(std::int32_t slot, std::int32_t state) {
     const Use& use = by_state_[state];
     GROVE_ASSERT(use.stamp == stamp_, "labels are asked for of an open state");
@@ -75,15 +75,15 @@ class LabelPlanes {
 
  private:
   static constexpr std::size_t kSpare = 64;
-  // Number of labels on about one page. A page is written before it is read: a page that is read
-  // first is mapped to a page of zeros, and the first write then faults again and interrupts all
-  // threads.
+  // Number of labels on about one page. The first access to a page is a write. A page that is read
+  // first is mapped to the shared page of zeros, so that its first write faults a second time and
+  // interrupts all threads.
   static constexpr std::int32_t kGroup = 4096 / sizeof(Label);
-  // Memory is allocated in pieces of one or more planes, with mmap, because the allocator would
-  // clear memory that it has used before.
+  // Memory is allocated in pieces of one or more planes, with mmap, because an allocator would have
+  // to clear memory that it reuses.
   static constexpr std::size_t kPieceBytes = std::size_t{16} << 20;
   static constexpr std::size_t kMaxPlanesPerPiece = 16;
-  // If searches have touched more groups than this, the memory is released. A label that is the
+  // Number of groups in use above which the next search releases the memory. A label that is the
   // only one on its page costs two hundred times its size.
   static constexpr std::int64_t kGroupsKept = (std::int64_t{128} << 20) / 4096;
 
@@ -93,8 +93,9 @@ class LabelPlanes {
   };
   struct Piece {
     std::unique_ptr<Label, Unmap> labels;
-    std::vector<std::uint8_t> touched;  // by plane, then group: was any of its labels accessed?
+    std::vector<std::uint8_t> touched;  // by plane, then group: 1 if a label of it was accessed
   };
+  // The plane of a state in the search with this stamp.
   struct Use {
     Label* labels = nullptr;
     std::uint8_t* touched = nullptr;
@@ -136,7 +137,7 @@ class LabelPlanes {
     return true;
   }
 
-  std::size_t capacity_ = 0;  // of a plane
+  std::size_t capacity_ = 0;  // slots per plane
   std::size_t planes_per_piece_ = 1;
   std::vector<Piece> pieces_;
   std::int64_t touched_groups_ = 0;

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Problem: target reasoning and long constraints leave places barred for ever from some time on.
-// Distances on the bare map ignore that, so a search with them tries every order whose cost is
-// below that of the detour. Here, legs that are known to begin late take the detour.
+// Problem: target reasoning and long constraints bar places for ever from some time on. Distances
+// on the bare map ignore that, so a search that uses them tries every order whose cost is below
+// that of the detour. Method: legs that provably begin late are charged for the detour.
 //
 // *Claim: a leg that leaves stop i at time e or later takes at least depth(j) steps to reach j.*
-// Here depth is breadth-first search from all states on i that enters a place c only if e +
-// depth(c) <= last(c), the last time at which an agent may be on c. *Proof.* Let c_0 = i, c_1, ...
-// be the places of the leg, one per time step, begun at t >= e. depth(c_k) <= k by induction: c_k
-// is occupied at t + k, so e + depth(c_{k-1}) + 1 <= e + k <= t + k <= last(c_k), and the search
-// enters c_k by depth k.
+// Here depth is the depth in a breadth-first search from all base states on i that enters a place c
+// only if e + depth(c) <= last(c), the last time at which an agent may be on c. *Proof.* Let c_0 =
+// i, c_1, ... be the places of the leg, one per time step, begun at t >= e. depth(c_k) <= k by
+// induction: the agent is on c_k at t + k, so e + depth(c_{k-1}) + 1 <= e + k <= t + k <=
+// last(c_k), and the search enters c_k by depth k.
 //
-// *How late a leg begins.* No path counts stop i before dist(start, i). Consider a path that counts
-// i last, with a sequence s. Up to i it visits all of s, so this part takes at least cost(s) -
-// to_end(i), and cost(s) is at least the least cost of all sequences considered. So the leg from i
-// to the end begins at min_cost - to_end(i) or later. cost(s) and to_end(i) are costs without
-// constraints.
+// *Earliest begin of a leg.* No path counts stop i before dist(start, i). Consider a path that
+// realizes a sequence s with i as its last stop. Until it counts i, the path visits all stops of s,
+// which takes at least cost(s) - to_end(i) steps. Since cost(s) >= min_cost, the leg from i to
+// the end begins at min_cost - to_end(i) or later. The costs cost(s) and to_end(i) are costs
+// without constraints.
 //
-// *Consequence.* Each leg of a path costs at least its entry, whatever comes before and after. So
-// this matrix can replace the plain one: it bounds the whole sequence, and the remainder of the
-// sequence from any state.
+// *Consequence.* Each leg of a path costs at least its entry, no matter which legs precede and
+// follow. So this matrix can replace the plain one: it gives lower bounds for whole sequences and
+// for the remainder of a sequence from any state.
 #include "planning/late_costs.h"
 
 #include <algorithm>
@@ -73,7 +73,7 @@ class LateCosts {
     const State first = world_.bases(world_.place(state), world_.kind(stops_.start())).first;
     return world_.base(state) == first + port;
   }
-  // Maximum over the ports of a stop.
+  // Maximum of to_end() over the ports of a stop.
   Time longest_end(int stop) const {
     Time longest = 0;
     for (int port = 0; port < stops_.ports(); ++port)
@@ -105,7 +105,9 @@ class LateCosts {
     }
   }
 
-  // Does a leg from a stop that begins at `begin` reach some place too late?
+  // Quick test: can a leg that begins at `begin` on the stop reach some place only after the last
+  // time at which an agent may be there? It uses distances to the stop for those from it. If the
+  // two differ, the test may miss a leg, whose entry then remains the plain one.
   bool is_late(int stop, Time begin) const {
     return std::ranges::any_of(barred_, [&](State state) {
       const Time there = stops_.distance(state, stop);
@@ -113,8 +115,8 @@ class LateCosts {
     });
   }
 
-  // Computes the depths from a row of the matrix; kNever for unreachable states. The agent leaves a
-  // stop in any state on it.
+  // Computes the depth of each state from the stop, or the start, of a row of the matrix; kNever
+  // for unreachable states. The agent can leave a stop in any base state on it.
   void walk_from(int row, Time begin) {
     depth_.assign(static_cast<std::size_t>(world_.state_count()), kNever);
     queue_.clear();
@@ -155,7 +157,7 @@ std::optional<CostMatrix> late_cost_matrix(const World& world, SafeIntervals& in
 
 namespace {
 
-// Lower bound on the cost of every sequence of the class, by the costs to go.
+// Returns a lower bound on the cost of every sequence of the class, computed from `goals`.
 Time min_cost(SequenceStages& goals) {
   const Time outside_bound = goals.cost_to_go().outside_bound();
   const SequenceStages::StageId stage = goals.first_stage();
@@ -163,8 +165,9 @@ Time min_cost(SequenceStages& goals) {
   return std::min(outside_bound, goals.distance(stage, goals.stops().start()));
 }
 
-// A direct leg costs at least as much as the late leg by any path. The last leg is that of the
-// plain matrix, because the late one begins when all others are done (sequence_dag.cpp, Pairs).
+// Returns costs to go over the late matrix. Direct legs cost at least as much as late legs. Their
+// column to the end is that of the plain matrix, because a late entry in that column is valid only
+// for the last leg of a sequence (sequence_dag.cpp, Pairs).
 CostToGo late_costs_to_go(const AgentStops& stops, CostMatrix late) {
   const auto make_direct = [&instance = stops.instance(), agent = stops.agent(), late,
                             plain = stops.cost_to_go().matrix()] {
@@ -185,7 +188,7 @@ SequenceStages* LateStages::over(SequenceStages& plain, const Limits& limits) {
   goals_.reset();
   const bool known = cost_to_go_ && agent_ == plain.stops().agent() &&
                      class_ == plain.sequence_class() && cost_to_go_->matrix().cost == matrix->cost;
-  if (!known) {  // otherwise reuses the costs to go of an earlier call
+  if (!known) {  // else the costs to go of an earlier call are reused
     agent_ = plain.stops().agent();
     class_ = plain.sequence_class();
     cost_to_go_ = late_costs_to_go(plain.stops(), std::move(*matrix));

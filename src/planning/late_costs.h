@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cost matrix that takes into account from when on places are barred for ever, and stages over it.
+// Late costs: lower bounds on legs that take into account the times from which places are barred
+// for ever. (The *plain* costs ignore constraints.) Also the stages of an agent over these costs.
 #pragma once
 
 #include <optional>
@@ -10,28 +11,30 @@
 
 namespace grove::detail {
 
-// Lower bounds on the legs of every path under these intervals that visits the stops in the order
-// of a sequence of plain cost `min_cost` or more. Returns nullopt if no entry exceeds the plain
-// matrix. O(stops * states).
+// Returns lower bounds on the legs of every path under `intervals` that visits the stops in the
+// order of a sequence whose plain cost is at least `min_cost`. Returns nullopt if no entry
+// exceeds that of the plain matrix. O(stops * states).
 std::optional<CostMatrix> late_cost_matrix(const World& world, SafeIntervals& intervals,
                                            const AgentStops& stops, Time min_cost);
 
-// Stages of one agent over late costs, for a search that plain distances mislead.
+// Stages of one agent over late costs, for searches in which plain distances are far below the
+// actual costs. One thread at a time.
 class LateStages {
  public:
-  // Both must outlive this.
+  // `world` and `intervals` must outlive this.
   LateStages(const World& world, SafeIntervals& intervals) : world_(world), intervals_(intervals) {}
 
-  // The stages of the same class over late costs. Returns nullptr unless these prove a higher cost
-  // of the best sequence; a limit may prevent that. Valid until the next call.
+  // Returns the stages of the class of `plain` over late costs. Returns nullptr if they do not
+  // prove a higher cost of the best sequence, for instance because a limit was reached. Valid until
+  // the next call.
   SequenceStages* over(SequenceStages& plain, const Limits& limits);
 
  private:
   const World& world_;
   SafeIntervals& intervals_;
   std::optional<CostToGo> cost_to_go_;
-  AgentIndex agent_ = 0;                 // their agent,
-  SequenceClass class_;                  // and their class
+  AgentIndex agent_ = 0;                 // agent of cost_to_go_
+  SequenceClass class_;                  // sequence class of cost_to_go_
   std::optional<SequenceStages> goals_;  // over cost_to_go_
 };
 

@@ -1,36 +1,39 @@
 // SPDX-License-Identifier: MIT
-// Builds the MDD of one agent by two searches over labels.
+// Builds the MDD of one agent in two searches over labels.
 //
-// *Definitions.* A *label* is a slot of safe_intervals.h and a stage of sequence_stages.h. The slot
-// determines the state and everything in the past that the constraints depend on. An agent in a
-// slot may wait there until the slot ends, and what it can do from a label at a given time depends
-// on nothing else. So a path of cost C can be in a label at every time from the *earliest*, at
-// which an agent can be there, up to the *latest*, from which it can still end at C, and at no
-// other time. An agent that arrives at the earliest time can wait for any later time, and an agent
-// that can end from the latest time can do so from any time before, waiting first.
+// *Definitions.* Let C be the given cost. A *label* is a slot of safe_intervals.h and a stage of
+// sequence_stages.h. The slot determines the state and all facts about the past on which the
+// constraints depend. An agent in a slot can wait there until the slot ends, and its continuations
+// from a label at a given time depend on nothing else. Let the *earliest* time of a label be the
+// first time at which an agent can be in it, and its *latest* time the last one from which the
+// agent can still end at C. At each time from the earliest to the latest, and at no other time,
+// some path of cost C can be in the label: an agent that arrives at the earliest time can wait
+// until any later time, and an agent that is in the label before the latest time can wait until
+// then.
 //
 // *Method.* Neither search branches over times. The forward search computes the earliest times, in
 // order of time, and all moves. The backward search computes the latest times along those moves,
-// from the last moves on. Then the layers are written, without a node that does not lead to an end.
-// (For one agent without goals and constraints, an MDD is made from two distances in the same way.)
+// from the last moves on. Then the layers are written, only with nodes that lead to an end. (The
+// MDD of an agent without tasks and constraints follows from two distances in the same way.)
 //
 // *Claim: the walks of the graph are exactly the paths of cost C.* *Proof.* Moves are generated at
 // the earliest time in the label that they leave, so the first time of a move is its earliest
 // possible arrival. Its last time follows from the end of the slot that it leaves and from the last
-// arrival in the slot that it enters (SafeIntervals::last_entry()). In between, single times may be
-// barred. A path that counts its stops as early as possible passes the stages of the search
-// (sequence_stages.cpp: each visit has one successor, or two, and then the search follows both).
-// The costs to go, from which the stages are made, are widened until they cover all sequences of
-// cost C or less: C < outside_bound(). So all stages along a path of cost C are known, and the path
-// is in them at times t with t + h <= C. Hence no move of such a path is dropped. A path comes to
-// rest at C by a move at C, into a slot where it may rest (or stands there at C = 0): the last step
-// is not a wait. Conversely, each walk to such an end satisfies the constraints, because they
-// concern only slots and moves. The one exception is the time by which the agent must have come to
-// rest; C is compared with it first.
+// arrival in the slot that it enters (SafeIntervals::last_entry()). Times in between can be barred.
+// A path that counts its stops as early as possible passes the stages of the search
+// (sequence_stages.cpp: a visit has one or two successor stages, and the search follows all of
+// them). The costs to go, on which the stages are based, are widened until they cover all sequences
+// of cost C or less, i.e. C < outside_bound(). Therefore all stages along a path of cost C are
+// known, and the path is in them at times t with t + h <= C. Hence no move of such a path is
+// dropped. If C > 0, a path comes to rest by a move that arrives at C in a slot where it may rest,
+// because its last step is not a wait; if C = 0, the path is there from the start. Conversely, each
+// walk to such an end satisfies the constraints, because slots and moves determine whether a path
+// satisfies them. The only exception is the time by which the agent must have come to rest; build()
+// compares C with it first.
 //
-// *Measured* against layers that are made forward, time by time, and then cleared of dead ends:
-// that method generated four nodes for each node that it kept. An instance of the paper's data set
-// that takes Grove seconds took half as long again.
+// *Measured* against a method that builds the layers forward, time by time, and then removes dead
+// ends: it generated four nodes for each node that it kept, and an instance of the paper's data set
+// that takes Grove seconds took 1.5 times as long.
 #include "planning/mdd.h"
 
 #include <algorithm>
@@ -68,7 +71,7 @@ class MddBuilder::Workspace {
     StageId stage;
     Time earliest;
     Time latest = kTooLate;
-    std::int32_t first_move = 0;  // of the moves out of the label
+    std::int32_t first_move = 0;  // index in moves_ of the first move out of the label
     std::int32_t end_move = 0;
   };
   // A move that may arrive at any time from `first` to `last` that is not barred.
@@ -78,7 +81,7 @@ class MddBuilder::Workspace {
     Time first;
     Time last;
   };
-  // One per slot and stage.
+  // Data of one (slot, stage) pair.
   struct Mark {
     LabelId label;
     Time distance;  // lower bound on the steps to the end
@@ -109,17 +112,17 @@ class MddBuilder::Workspace {
   LabelPlanes<Mark> planes_;
   BucketQueue queue_;  // Entry::slot is a LabelId here
   std::vector<Label> labels_;
-  std::vector<Move> moves_;             // grouped by the label that they leave
-  std::vector<std::int32_t> into_;      // indices of moves, grouped by the label that they enter
+  std::vector<Move> moves_;         // grouped by the label that they leave
+  std::vector<std::int32_t> into_;  // indices in moves_, grouped by the label that the move enters
   std::vector<std::int32_t> first_in_;  // index in into_, by label; one more at the end
   std::vector<LabelId> ends_;           // labels in which some path comes to rest
-  std::vector<LabelId> useful_;         // labels that have a `latest`, in decreasing order of it
+  std::vector<LabelId> useful_;         // labels that have a latest time, by decreasing latest time
   std::vector<LabelId> here_;           // labels of the layer being written
-  std::vector<NodeId> nodes_;           // by label: its node in the layer after it
+  std::vector<NodeId> nodes_;           // by label: its node in the layer written last
   Mdd written_;                         // the MDD written so far; keeps its capacity
-  std::int64_t effort_ = 0;             // labels and nodes of all calls
+  std::int64_t effort_ = 0;             // labels and nodes of all calls so far
 
-  // Of the current call.
+  // Data of the current call.
   SequenceStages* goals_ = nullptr;
   const Limits* limits_ = nullptr;
   Time cost_ = 0;
@@ -168,7 +171,7 @@ MddBuilder::Outcome MddBuilder::Workspace::build(SequenceStages& goals,
                                                  Mdd& paths) {
   paths = Mdd();
   intervals_.assign(constraints);
-  // If states are places, an agent that finishes later also comes to rest later.
+  // If states are places, the time at which an agent comes to rest is its finish.
   const Time latest = world_.states_are_places() ? intervals_.latest_rest() : kNever;
   if (cost < 0 || cost >= kNever || cost > latest || !goals.plausible()) return Outcome::kNone;
   if (limits.stop_requested()) return Outcome::kStopped;
@@ -194,7 +197,7 @@ MddBuilder::Outcome MddBuilder::Workspace::make_layers(std::size_t max_nodes, Md
   return Outcome::kBuilt;
 }
 
-// Generates all labels that some path may pass, and the moves between them.
+// Generates all labels that a path of cost cost_ can pass, and the moves between them.
 MddBuilder::Outcome MddBuilder::Workspace::go_forward(std::size_t label_limit) {
   labels_.clear();
   moves_.clear();
@@ -247,7 +250,7 @@ void MddBuilder::Workspace::reach(LabelId from, std::int32_t slot, StageId stage
   if (from != kNoLabel) moves_.push_back({from, there->label, first, last});
 }
 
-// Returns nullptr if there is no memory for it.
+// Returns the mark of the pair, nullptr if no memory is available.
 MddBuilder::Workspace::Mark* MddBuilder::Workspace::mark(std::int32_t slot, StageId stage) {
   if (!planes_.open(stage, *limits_)) return nullptr;
   Mark& mark = planes_.label(slot, stage);
@@ -297,7 +300,8 @@ void MddBuilder::Workspace::find_ends() {
   }
 }
 
-// Raises the latest time of the label that `move` leaves; the move must arrive by `arrival`.
+// Raises the latest time of the label that `move` leaves, for arrivals of the move at `arrival` or
+// earlier.
 void MddBuilder::Workspace::leave_by(const Move& move, Time arrival) {
   const Time last = last_arrival(move, arrival);
   Label& from = labels_[move.from];
@@ -306,7 +310,8 @@ void MddBuilder::Workspace::leave_by(const Move& move, Time arrival) {
   queue_.push(cost_ - from.latest, {.slot = move.from, .time = from.latest});
 }
 
-// Last possible arrival of the move up to `latest`; before move.first if there is none.
+// Returns the last possible arrival of the move, `latest` or earlier; a time before move.first if
+// there is none.
 Time MddBuilder::Workspace::last_arrival(const Move& move, Time latest) const {
   return intervals_.last_move(labels_[move.from].slot, place(move.to), std::min(latest, move.last));
 }

@@ -14,9 +14,9 @@
 
 namespace grove::detail {
 
-// Multi-valued decision diagram: a layered graph. The state sequences along its walks from layer 0
-// to layer cost() are exactly the paths that it represents; each path has one walk or more. Every
-// node lies on such a walk. (MDDs in CBS: Boyarski et al. 2015.)
+// Multi-valued decision diagram, a layered graph. The state sequences along its walks from layer 0
+// to layer cost() are exactly the paths that it represents. Each path has at least one walk, and
+// every node is on such a walk.
 class Mdd {
  public:
   // Index of a node; the nodes of all layers are numbered together.
@@ -26,7 +26,7 @@ class Mdd {
     NodeId end;
   };
 
-  // True if there is no node, hence no path. Otherwise the layers are 0 .. cost().
+  // True if the MDD has no node, hence represents no path. Otherwise the layers are 0 .. cost().
   bool empty() const { return places_.empty(); }
   Time cost() const { return static_cast<Time>(first_of_layer_.size()) - 2; }
   int node_count() const { return static_cast<int>(places_.size()); }
@@ -46,7 +46,7 @@ class Mdd {
 
   // Equal if the graphs and their node numbers are equal.
   friend bool operator==(const Mdd&, const Mdd&) = default;
-  // Equal for equal graphs, on every machine.
+  // Equal MDDs have equal hashes, on every machine.
   std::uint64_t hash() const;
 
  private:
@@ -55,9 +55,9 @@ class Mdd {
   void clear();  // keeps the capacity
 
   // Nodes are stored by layer, from the last layer to the first.
-  std::vector<NodeId> first_of_layer_;  // one more at the end, as below
+  std::vector<NodeId> first_of_layer_;  // and one more entry for the end
   std::vector<Place> places_;           // by node
-  std::vector<State> states_;           // by node; empty where every state is its place
+  std::vector<State> states_;           // by node; empty if every state is equal to its place
   std::vector<std::int32_t> first_successor_;
   std::vector<NodeId> successors_;
 };
@@ -68,7 +68,7 @@ class MddBuilder {
   enum class Outcome : std::uint8_t {
     kBuilt,
     kNone,      // proven: no path has exactly this cost
-    kTooLarge,  // more than `max_nodes` nodes, or (slot, stage) pairs reached for them
+    kTooLarge,  // more than `max_nodes` nodes, or (slot, stage) pairs reached
     kStopped,   // a limit was reached
   };
 
@@ -79,11 +79,12 @@ class MddBuilder {
   // Builds the MDD of all paths that realize a sequence of the class, satisfy `constraints` (also
   // while resting) and come to rest exactly at `cost`. If `cost` is the least cost, these are all
   // optimal paths. Widens the costs to go of `goals` as needed. `paths` is empty after all outcomes
-  // except kBuilt. Throws std::invalid_argument for a constraint that does not fit the world.
+  // except kBuilt. Throws std::invalid_argument for a constraint that SafeIntervals::assign()
+  // refuses.
   Outcome build(SequenceStages& goals, std::span<const Constraint> constraints, Time cost,
                 std::size_t max_nodes, const Limits& limits, Mdd& paths);
 
-  // Work done by all calls so far: nodes made, plus (slot, stage) pairs reached for them.
+  // Effort of all calls so far: the number of nodes built plus (slot, stage) pairs reached.
   std::int64_t nodes() const;
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reservation table: the paths of planned agents, which a further agent must avoid.
+// Reservation table: the paths of agents that are already planned, which other agents must not
+// collide with.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +12,9 @@
 
 namespace grove::detail {
 
-// The whole paths of some agents, including their rest for ever, by place. Prioritised planning
-// treats them as obstacles. Adding or removing a path costs time in the number of stays on its
-// places, and the low level looks up only the places that it reaches. One thread at a time.
+// Stores the paths of some agents by place, including their final rest. Prioritised planning treats
+// them as moving obstacles. The time to add or remove a path is linear in the number of stays on
+// its places, and the low level looks up only the places that it reaches. One thread at a time.
 class ReservationTable {
  public:
   static constexpr AgentIndex kNoAgent = -1;
@@ -21,13 +22,13 @@ class ReservationTable {
   // A period during which an agent is on a place without a break.
   struct Stay {
     Time first;        // time of arrival
-    Time last;         // last time there, inclusive; kNever: it rests there
-    Place next;        // its place at last + 1; kNoPlace if it rests
+    Time last;         // last time there, inclusive; kNever: final rest
+    Place next;        // its place at time last + 1; kNoPlace for a final rest
     AgentIndex agent;  // the agent that stays
   };
 
-  // `world` must outlive this. A place counts as occupied also `margin` steps before and after an
-  // agent is there.
+  // `world` must outlive this. A place also counts as occupied for `margin` steps before and after
+  // each stay.
   explicit ReservationTable(const World& world, Time margin = 0)
       : world_(world), margin_(margin), stays_(world.place_count()) {}
 
@@ -40,17 +41,17 @@ class ReservationTable {
   void remove(AgentIndex agent, const Path& path);
   void clear();
 
-  // The stays on a place in order of time; they do not overlap.
+  // The stays on a place, in order of time, without overlap.
   std::span<const Stay> stays(Place place) const { return stays_[place]; }
   // Number of stays on all places.
   std::int64_t count() const { return count_; }
-  // The agent on the place at this time; kNoAgent if there is none.
+  // The agent on the place at this time, without margin; kNoAgent if there is none.
   AgentIndex agent_at(Place place, Time time) const;
 
-  // May another agent arrive on `to` at `arrival`, from a neighbour or, if `from` == `to`, by
-  // waiting there?
+  // May an agent that is not in the table be on `to` at time `arrival`, coming from the neighbor
+  // `from`, or by a wait if `from` == `to`?
   bool may_arrive(Place from, Place to, Time arrival) const;
-  // May another agent rest on the place from `from` on?
+  // May an agent that is not in the table rest on the place for ever from time `from` on?
   bool may_rest_from(Place place, Time from) const {
     return stays_[place].empty() || std::int64_t{stays_[place].back().last} + margin_ < from;
   }

@@ -1,42 +1,43 @@
 // SPDX-License-Identifier: MIT
 // Safe-interval search, the core of both low levels: A* over safe intervals (SIPP: Phillips and
-// Likhachev, ICRA 2011) with the visited goals as part of the state (as in the multi-label A* of
-// Grenouilleau, van Hoeve and Hooker, ICAPS 2019). The template parameter Goals decides what there
-// is to visit, and hence which labels are dropped or postponed: fixed_order_goals.h,
-// free_order_goals.h.
+// Likhachev, ICRA 2011) with the visited goals as part of the search state (as in the multi-label
+// A* of Grenouilleau, van Hoeve and Hooker, ICAPS 2019). The template parameter Goals defines the
+// goals, and hence which labels are dropped or postponed (fixed_order_goals.h, free_order_goals.h).
 //
 // *Labels and dominance.* A *label* is a (state, safe interval of its place, progress), where
-// progress is a number for the set of visited goals. It stores the earliest known time of arrival.
+// progress identifies the set of visited goals. It stores the earliest known time of arrival.
 // *Claim: the earliest time suffices.* *Proof.* Constraints bar places and moves between them,
-// never waits, so an agent there at time t can be there at any later time of the interval. Waiting
-// changes no progress. So an earlier arrival can do after waiting whatever a later arrival can do.
-// A barred move (edge constraint) delays a departure, and the later departure is open to the
-// earlier arrival, too. For the same reason only the earliest permitted arrival into each safe
-// interval of a neighbor is generated.
-// None of this holds across intervals: an agent that arrives early can be caught in an interval
-// that leads nowhere. So labels of different intervals never dominate each other. (A corridor that
-// may not be traversed gives its inner places several copies of each interval, by the end at which
-// the agent entered. A place that may not be rested on by some time has two intervals, by the time
-// of arrival: safe_intervals.h. The future depends on nothing else of the past.)
+// never waits, so an agent that is there at time t can be there at any later time of the interval.
+// Waiting changes no progress. Therefore an agent that arrives earlier can wait and then continue
+// like one that arrives later. A barred move (edge constraint) only delays a departure, and an
+// agent that arrived earlier can also make the later departure. For the same reason only the
+// earliest permitted arrival in each safe interval of a neighbor is generated. The claim does not
+// hold across intervals, because an agent that arrives early can be caught in an interval that
+// leads nowhere. So labels of different intervals never dominate each other. (If traversals of a
+// corridor are barred, its inner places have several copies of each interval, one for each end at
+// which the agent can have entered. If an agent may not rest on a place by some time, the place has
+// two intervals, which differ in the time of arrival; see safe_intervals.h. The continuations
+// depend on no other part of the past.)
 //
-// *Finish.* The agent may come to rest only where nothing bars it for ever after, with all goals
-// visited. Such a label is a *finish*. The *first rest* is the least begin of such an interval. No
-// path costs less, so a finish at that time is optimal at once, whatever f the search has reached.
-// The raised heuristic max(t + h, first rest) would have the same effect, but with a plateau.
+// *Finish.* The agent may come to rest only after all goals are visited and in an interval that
+// permits rest. A label with both properties is a *finish*. The *first rest* is the least begin of
+// an interval in which the agent may rest. No path costs less, so a finish at that time is optimal,
+// no matter which f the search has reached. The raised heuristic max(t + h, first rest) would have
+// the same effect, but with a plateau.
 //
-// *Order.* Labels are popped by layers, f = t + h (or as Goals defines), and may be postponed to a
-// later layer when they are popped; Goals proves why that loses no path. So a label may be improved
-// after its expansion; then it is expanded again. Its old children keep it as their parent, because
-// waiting there a little longer is permitted. *Termination.* Times only fall and postponements only
-// rise, each through finitely many values, so the search ends. If the queue is empty, the search
-// has covered everything that Goals did not drop.
+// *Order.* Labels are popped by layer, which is f = t + h unless Goals defines another value. When
+// a label is popped, it can be postponed to a later layer; Goals has the proof that this loses no
+// path. As a result, a label can be improved after its expansion, and is then expanded again. Its
+// old children keep it as their parent, because the agent may wait there longer. *Termination.*
+// Times only decrease and postponements only increase, each through finitely many values. If the
+// queue is empty, the search has covered everything that Goals did not drop.
 //
-// *Ties.* Among labels of equal f, those with fewer conflicts are popped first, and the finish is
-// accepted when it is popped. (Conflicts while resting are the same for all paths of equal cost
-// that rest on one place.) Every path whose cost equals the cost without constraints passes its
-// labels at their earliest times. So among these paths the result has the fewest conflicts
-// possible. If constraints delay the agent, fewer conflicts are preferred but not optimized: that
-// would need labels for later arrivals.
+// *Ties.* Among labels of equal f, those with fewer conflicts are popped first, and a finish is
+// accepted when it is popped. (Conflicts during the final rest are equal for all paths of equal
+// cost that rest on one place.) A path that costs no more than the optimum without constraints
+// passes its labels at their earliest times. So among these paths the search finds one with the
+// fewest conflicts. If constraints delay the agent, the search prefers few conflicts but does not
+// minimize them, because that would require labels for later arrivals.
 #pragma once
 
 #include <algorithm>
@@ -51,31 +52,32 @@
 
 namespace grove::detail {
 
-// Returned in place of a layer if the label is not needed.
+// Value in place of a layer: the label is not needed.
 inline constexpr Time kDropped = std::numeric_limits<Time>::max();
 
 // Safe-interval search. `Goals` has a type Progress and the functions
 //
-// - on_arrival(progress, state, reach): calls reach(p) for each progress p that an agent of this
-//   progress may have after it has arrived in the state;
+// - on_arrival(progress, state, reach): calls reach(p) for each progress p that an agent can have
+//   after it arrives in the state with `progress`;
 // - layer(progress, state, time): the layer in which this label is to be popped, or kDropped;
-// - may_end(progress, state): is this a finish, if the agent may rest here for ever?
+// - may_end(progress, state): are all goals visited, and is this a state of rest? (The search tests
+//   the interval itself.)
 // - first_rest(): lower bound on the cost of every path;
-// - postponed_layer(progress, state, time, layer): the layer to which this label is postponed, or
-// kDropped;
-//   `layer` or less if it is not postponed;
-// - can_be_gate(state, before, progress): may a label whose parent has progress `before` dominate
-//   others (be a *gate*)?
-// - add_gate(state, before, progress, time, until): the label dominates others, from `time` to
-//   before `until`.
+// - postponed_layer(progress, state, time, layer): the layer to which this label, popped in layer
+// `layer`,
+//   is postponed, or kDropped; a value of at most `layer` if it is not postponed;
+// - can_be_gate(state, before, progress): can a label in `state` whose parent has progress `before`
+//   be a *gate*, i.e. dominate other labels?
+// - add_gate(state, before, progress, time, until): records a gate that dominates labels from
+//   `time` on and before `until`.
 template <class Goals>
 class SafeIntervalSearch {
  public:
   using Progress = typename Goals::Progress;
   enum class End : std::uint8_t {
     kFound,
-    kExhausted,  // there is no path except through labels that the goals dropped
-    kPaused,     // `pause_at` labels are expanded; run() continues
+    kExhausted,  // no path exists except through labels that Goals dropped
+    kPaused,     // `pause_at` labels are expanded; call run() to continue
     kStopped,    // a limit was reached
   };
 
@@ -87,15 +89,16 @@ class SafeIntervalSearch {
   Goals& goals() { return goals_; }
   const World& world() const { return world_; }
 
-  // Starts a search. The agent is in `start` at time 0 and has `progress` before anything is
-  // visited there. No label has a layer below `first_layer`. `others` may be null; it and `limits`
-  // must outlive this search.
+  // Starts a search. The agent is in `start` at time 0; `progress` is its progress before it visits
+  // goals there. No label has a layer below `first_layer`. `others` may be nullptr. `others` and
+  // `limits` must outlive this search.
   void begin(State start, Progress progress, Time first_layer, const ConflictAvoidanceTable* others,
              const Limits& limits);
-  // Continues until exactly `pause_at` labels are expanded in all searches. What is done by then
-  // must not depend on earlier searches.
+  // Continues until the search ends or expanded(), which counts all searches, is exactly
+  // `pause_at`. The count is exact so that the effort of a search does not depend on earlier
+  // searches.
   End run(std::int64_t pause_at);
-  // Of the path found.
+  // The cost of the path found, and the path. Valid after kFound.
   Time cost() const { return finish_.time; }
   void write_path(Path& path);
 
@@ -118,7 +121,7 @@ class SafeIntervalSearch {
   };
 
   static constexpr std::int32_t kNoSlot = -1;
-  static constexpr std::int64_t kLabelsPerPoll = 256;  // between polls of the limits
+  static constexpr std::int64_t kLabelsPerPoll = 256;  // labels between polls of the limits
 
   Label& label(const Entry& entry) { return planes_.label(entry.slot, entry.progress); }
   bool postpone(const Entry& entry, State state);
@@ -162,7 +165,7 @@ template <class Goals>
 typename SafeIntervalSearch<Goals>::End SafeIntervalSearch<Goals>::run(std::int64_t pause_at) {
   for (Entry entry; queue_.pop(entry);) {
     const Label& l = label(entry);
-    if (l.time != entry.time || l.conflicts != entry.conflicts) continue;  // improved since
+    if (l.time != entry.time || l.conflicts != entry.conflicts) continue;  // was improved later
     const State state = intervals_.state_of(entry.slot);
     if (postpone(entry, state)) continue;
     if (is_finish(entry.slot, state, entry.progress)) {
@@ -186,7 +189,8 @@ bool SafeIntervalSearch<Goals>::postpone(const Entry& entry, State state) {
   return true;
 }
 
-// A gate must permit whatever the labels that it dominates can do next.
+// A label can be a gate only if its agent can make all continuations of the labels that it
+// dominates.
 template <class Goals>
 void SafeIntervalSearch<Goals>::add_gate(const Entry& entry, State state, Progress before) {
   if (goals_.can_be_gate(state, before, entry.progress) && intervals_.may_dominate(entry.slot))
@@ -221,7 +225,7 @@ void SafeIntervalSearch<Goals>::reach(const Entry& from, State from_state, std::
        .stamp = planes_.stamp(),
        .conflicts = conflicts,
        .parent_progress = from.progress};
-  // No path is cheaper than a finish at the first rest, so such a label skips its layer.
+  // No path costs less than a finish at the first rest, so this finish goes to the current layer.
   const bool optimal = time == goals_.first_rest() && is_finish(slot, state, progress);
   queue_.push(optimal ? queue_.layer() : std::max(layer, queue_.layer()),
               {.slot = slot, .time = time, .conflicts = conflicts, .progress = progress});

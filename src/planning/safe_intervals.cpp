@@ -30,7 +30,7 @@ void SafeIntervals::assign(std::span<const Constraint> constraints) {
 void SafeIntervals::assign(const ReservationTable& reservations) {
   forget();
   reservations_ = &reservations;
-  // k >= 1 stays on a place leave at most k + 1 <= 2 k intervals of each state.
+  // k >= 1 stays on a place leave at most k + 1 <= 2 k intervals for each state.
   slot_limit_ =
       states_ + static_cast<int>(2 * reservations.count()) * world_.max_states_on_a_place();
 }
@@ -113,7 +113,7 @@ void SafeIntervals::keep(const Constraint& c) {
       break;
     case ConstraintKind::kStopIs:
     case ConstraintKind::kStopIsNot:
-      break;  // not on the path: check() has refused it
+      break;  // check() refuses constraints on the sequence
   }
 }
 
@@ -125,7 +125,7 @@ void SafeIntervals::keep_bar(const Constraint& c) {
 void SafeIntervals::keep_rest_by(const Constraint& c) {
   only_rest_ = only_rest_ == kNoPlace || only_rest_ == c.cell ? c.cell : kNowhere;
   latest_rest_ = std::min(latest_rest_, c.end);
-  // No bar, but the place needs slots of its own.
+  // This bars nothing, but the place needs slots of its own.
   if (!states_are_places_) bars_.push_back({c.cell, kNoPlace, 0, -1, Bar::Kind::kRest, kFree});
 }
 
@@ -209,7 +209,7 @@ void SafeIntervals::add_unending_interval(const Group& group, State state, Time 
   for (int i = group.first_bar; i < group.first_move; ++i)
     if (bars_[i].kind == Bar::Kind::kRest) no_rest_by = std::max(no_rest_by, bars_[i].end);
   no_rest_by = std::min(no_rest_by, kNever);
-  // Arrivals from `begin` up to `last`.
+  // Adds the slot for arrivals from `begin` to `last`.
   const auto add = [&](Time last, bool may_rest, bool is_late = false) {
     if (begin > last || begin >= kNever) return;
     intervals_.push_back({state, begin, kNever, last, copy, may_rest, kNoPlace, is_late});
@@ -269,7 +269,8 @@ Time SafeIntervals::first_move(int from_slot, Place to, Time earliest) const {
 Time SafeIntervals::last_move(int from_slot, Place to, Time latest) const {
   if (unconstrained(to)) return latest;
   const Group& group = groups_[group_of_[to]];
-  // One pass suffices here, too: the bars passed begin later than the bars to come.
+  // One pass suffices here, too, because each bar begins no earlier than the bars after it in this
+  // loop.
   for (int i = group.end_move - 1; i >= group.first_move; --i)
     if (bars(bars_[i], from_slot, latest)) latest = bars_[i].begin - 1;
   return latest;

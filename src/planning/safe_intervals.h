@@ -15,57 +15,58 @@
 
 namespace grove::detail {
 
-// A state with a range of times at which the agent may be on its place, and with what the future
-// depends on of how it arrived. The agent may always wait inside the interval: constraints bar
-// places and moves, never waits.
+// A state, a range of times at which the agent may be on its place, and those properties of the
+// arrival on which the continuations depend. The agent can always wait inside the interval, because
+// constraints bar places and moves, never waits.
 struct SafeInterval {
   State state = kNoState;
   Time begin = 0;
   Time end = kNever;           // inclusive; kNever: for ever
-  Time last_arrival = kNever;  // an agent that arrives later is in another interval
+  Time last_arrival = kNever;  // agents that arrive later are in another interval
   std::uint8_t copy = 0;       // copy of the place, see SafeIntervals
   bool may_rest = false;       // may the agent rest here for ever?
-  // With reservations: the agent that was here before moves to this place at `begin`.
+  // With reservations: the place to which the previous agent moves when it leaves this place;
+  // kNoPlace if there was none.
   Place left_for = kNoPlace;
-  bool is_late = false;  // an agent that arrived earlier may rest
+  bool is_late = false;  // agents that arrived earlier may rest
 };
 
-// The safe intervals of all states under one list of constraints. Most places have no constraint
-// and take no memory except one number: the only interval of a state there, all of time, is the
-// *slot* with the number of the state. The intervals of states on other places are the slots from
-// state_count() on; those of one state are contiguous and, within a copy (see below), in order
-// of time. The object is reused for many lists. Each list takes O(constraints), plus sorting and
-// the length of the corridors that may not be traversed.
+// The safe intervals of all states under one list of constraints. Intervals are numbered as
+// *slots*. Most places have no constraint and take no memory except one number: a state there has
+// only one interval, which is all of time, and the slot of this interval has the number of the
+// state. The intervals of states on other places are the slots from World::state_count() on. Those
+// of one state are contiguous and, within a copy (see below), in order of time. One object can be
+// assigned many lists, one after another. Each list takes O(constraints), plus sorting and the
+// length of the corridors with barred traversals. One thread at a time.
 //
-// With reservations instead of constraints, the intervals of a place are made when the place is
-// first seen: see() must be called before any other query about it. With constraints
-// see() does nothing.
+// With reservations instead of constraints, see() makes the intervals of a place on demand: the
+// caller must call it before any other query about the place. With constraints see() does nothing.
 //
-// Each arrival leads to one slot, and a slot determines what the agent can do after the arrival:
+// Each arrival leads to one slot, and the slot determines the continuations after the arrival:
 //
 // - *No rest by t.* If the interval [b, inf) of a place has b <= t, it becomes two overlapping
 //   slots. An agent that arrives at t or earlier may stay for any time, but not for ever. An agent
-//   that arrives later may rest. (An agent that turns on the place stays in its slot: the time of
-//   arrival is when it came to the place.)
-// - *Rest by t.* If agents may turn or work after they have arrived for good, the interval is
+//   that arrives later may rest. (A turn on the place is no arrival: the time of arrival is the
+//   time at which the agent came to the place.)
+// - *Rest by t.* If agents can turn or execute tasks after their last arrival, the interval is
 //   divided in the same way: an agent that arrives at t or earlier may rest, one that arrives later
 //   may not.
 // - *No traversal.* The inner places of a corridor with such a constraint have all their slots in
-//   two or three *copies*. An agent that enters the corridor at one of its ends gets the copy of
-//   that end and keeps it until it leaves, and the constraint bars a move out of one copy only. The
-//   last copy bars none: it is for an end from which traversals are permitted, and for the start at
-//   time 0.
+//   two or three *copies*. An agent that enters the corridor at one of its ends is in the copy for
+//   that end until it leaves the corridor, and the constraint bars a move out of one copy only. In
+//   the last copy no traversal is barred. It contains agents that entered at an end from which
+//   traversals are permitted, and agents that are inside at time 0.
 class SafeIntervals {
  public:
   // `world` must outlive this.
   explicit SafeIntervals(const World& world);
 
-  // Replaces the constraints. They may come in any order, overlap and repeat. Throws
+  // Replaces the constraints. The list can have any order, overlaps and duplicates. Throws
   // std::invalid_argument for a place outside the world, a move from a place to itself, a traversal
   // that does not leave a corridor, or a constraint on the sequence.
   void assign(std::span<const Constraint> constraints);
-  // Bars everything that would collide with a reserved path. `reservations` must not change until
-  // the next assign().
+  // Replaces the constraints by reservations: bars all places, moves and rests that would collide
+  // with a reserved path. `reservations` must not change until the next assign().
   void assign(const ReservationTable& reservations);
 
   void see(Place place) {
@@ -78,33 +79,34 @@ class SafeIntervals {
   Place place_of(int slot) const { return world_.place(state_of(slot)); }
   Time begin_of(int slot) const { return slot < states_ ? 0 : interval(slot).begin; }
   Time end_of(int slot) const { return slot < states_ ? kNever : interval(slot).end; }
-  // Last arrival of this slot: an agent that comes to the place later is in another slot.
+  // Last time of arrival in this slot. An agent that comes to the place later is in another slot.
   Time last_arrival(int slot) const {
     return slot < states_ ? kNever : interval(slot).last_arrival;
   }
   // May an agent that arrived in this slot stay for ever? If states are places, this does not test
-  // the time of kRestBy: there the agent finishes when it arrives, see latest_rest().
+  // the time of kRestBy, because the last arrival is then the finish, which callers compare with
+  // latest_rest().
   bool may_rest(int slot) const {
     return (only_rest_ == kNoPlace || place_of(slot) == only_rest_) &&
            (slot < states_ || interval(slot).may_rest);
   }
-  // The last time at which a move from `from_slot` into `slot` may arrive, if the move is not
-  // barred.
+  // The last time at which a move from `from_slot` to `slot` can arrive, without regard to barred
+  // moves.
   Time last_entry(int from_slot, int slot) const {
     return place_of(from_slot) == place_of(slot)
                ? end_of(from_slot)
                : std::min(end_of(from_slot) + 1, last_arrival(slot));
   }
-  // Can an agent in this slot do, until next_begin(), everything that it could do from another slot
-  // of this state at the same time or later? Not from a copy that is barred from a traversal, nor
-  // after an arrival too late to rest (kRestBy).
+  // True if an agent in this slot has, until next_begin(), all continuations of an agent in any
+  // other slot of this state at the same time or later. False for a copy with a barred traversal,
+  // and after an arrival that is too late to rest (kRestBy).
   bool may_dominate(int slot) const {
     return copy_of(slot) == kFree && !(slot >= states_ && interval(slot).is_late);
   }
 
   // True if no constraint bars the place or a move to it, and the place has no copies.
   bool unconstrained(Place place) const { return group_of_[place] == kNoGroup; }
-  // The slots of a state are first_slot(state) .. end_slot(state) - 1, perhaps none.
+  // The slots of a state are first_slot(state), ..., end_slot(state) - 1. There may be none.
   int first_slot(State state) const {
     const Place place = world_.place(state);
     return unconstrained(place) ? state : slots(groups_[group_of_[place]], state).first;
@@ -113,9 +115,9 @@ class SafeIntervals {
     const Place place = world_.place(state);
     return unconstrained(place) ? state + 1 : slots(groups_[group_of_[place]], state).end;
   }
-  // The slot of an agent that starts in `state` at time 0; -1 if that is barred.
+  // The slot of an agent that starts in `state` at time 0; -1 if a constraint bars this.
   int start_slot(State state) const;
-  // The begin of the slot of `place` in which the agent may rest; kNever if there is none.
+  // The begin of the first slot of `place` in which the agent may rest; kNever if there is none.
   Time rest_begin(Place place) const;
   // The last time at which the agent may be on `place`; -1 if there is none.
   Time last_time(Place place) const {
@@ -126,20 +128,21 @@ class SafeIntervals {
 
   // The time by which the agent must have arrived at its place of rest (kRestBy); kNever: no limit.
   Time latest_rest() const { return latest_rest_; }
-  // The only place on which the agent may rest; kNoPlace: any. If two constraints name different
-  // places, the value is not a place.
+  // The only place on which the agent may rest (kRestBy); kNoPlace: any place. If two constraints
+  // name different places, the value is negative and not kNoPlace.
   Place only_rest() const { return only_rest_; }
 
-  // The first time from `earliest` on at which the move of an agent in `from_slot` to `to` is not
-  // barred; later than kNever if there is none. Does not test whether `to` is safe then. Not with
-  // reservations.
+  // The first time of arrival, `earliest` or later, at which a move from `from_slot` to `to` is not
+  // barred; later than kNever if there is none. Does not test whether an agent may be on `to` at
+  // that time. Not for reservations.
   Time first_move(int from_slot, Place to, Time earliest) const;
-  // The last time up to `latest` at which this move is not barred; negative if there is none.
+  // The last time of arrival, `latest` or earlier, at which this move is not barred; negative if
+  // there is none.
   Time last_move(int from_slot, Place to, Time latest) const;
 
-  // Calls arrive(slot, state, time) for each slot to which an agent in `slot` at `from_time` can
-  // move, with the earliest time of arrival. An agent that moves without leaving its place stays in
-  // the interval in which it came to the place.
+  // Calls arrive(slot, state, time) for each slot to which an agent that is in `slot` at
+  // `from_time` can move, with the earliest time of arrival. An agent that changes its state but
+  // not its place stays in the interval in which it came to the place.
   template <class Arrive>
   void for_each_move(int slot, Time from_time, Arrive arrive) {
     if (states_are_places_)
@@ -157,15 +160,16 @@ class SafeIntervals {
   // Copies of the inner places of a corridor.
   static constexpr std::uint8_t kFromFront = 0;
   static constexpr std::uint8_t kFromBack = 1;
-  static constexpr std::uint8_t kFree = 2;  // also of places without copies
+  static constexpr std::uint8_t kFree = 2;  // last copy; also for places without copies
 
   struct Range {
     int first;
     int end;
   };
 
-  // A stored constraint: times barred on a place, times by which the agent must not have come to
-  // rest there, or a barred move to the place, perhaps from one copy only.
+  // A stored constraint of one kind. kPlace: the place is barred at these times. kRest: the agent
+  // must not come to rest there by `end`. kMove: a move to the place is barred, from all copies or
+  // from one.
   struct Bar {
     enum class Kind : std::uint8_t { kPlace, kRest, kMove };
     Place place;
@@ -175,21 +179,22 @@ class SafeIntervals {
     Kind kind;
     std::uint8_t copy;  // the copy that the move leaves; kFree: any
   };
-  // A corridor with a barred traversal. If no constraint bars a copy, it is kFree.
+  // A corridor with a barred traversal: the copies for agents that entered at each end; kFree if no
+  // traversal from that end is barred.
   struct RestrictedCorridor {
     int corridor;
     std::uint8_t from_front = kFree;
     std::uint8_t from_back = kFree;
   };
-  // Data of one constrained place: slots, and indices into bars_.
+  // Slots of one constrained place, and the range of its constraints in bars_.
   struct Group {
     Place place;
-    std::int32_t first_slot = 0;  // of the first state on it; the slots of the others follow
-    std::int32_t slots = 0;       // of each state
+    std::int32_t first_slot = 0;  // of the first state on the place; other states follow
+    std::int32_t slots = 0;       // number of slots of each state
     std::int32_t first_bar = 0;
     std::int32_t first_move = 0;  // the barred moves to the place come last
     std::int32_t end_move = 0;
-    std::int32_t corridor = kNoCopies;  // of an inner place: in restricted_corridors_
+    std::int32_t corridor = kNoCopies;  // of an inner place: index in restricted_corridors_
     Place front = kNoPlace;             // the front of that corridor, if adjacent
   };
 
@@ -230,7 +235,7 @@ class SafeIntervals {
       if (!reservations_)
         time = first_move(from_slot, to, time);
       else if (time == begin && interval(slot).left_for == from)
-        continue;  // swap conflict; and later `from` is not safe any more
+        continue;  // swap conflict; a wait on `from` would collide, too
       if (time <= last) arrive(slot, state, time);
     }
   }
@@ -240,7 +245,7 @@ class SafeIntervals {
     const int first = group.first_slot + world_.rank_on_place(state) * group.slots;
     return {first, first + group.slots};
   }
-  // The slots of `state` that a move from `from` may lead into.
+  // The slots of `state` that a move from `from` can lead to, at any time.
   Range slots_entered(const Group& to, int from_slot, Place from, State state) const {
     if (to.corridor == kNoCopies) return slots(to, state);
     const RestrictedCorridor& corridor = restricted_corridors_[to.corridor];
@@ -255,8 +260,8 @@ class SafeIntervals {
   std::uint8_t copy_of(int slot) const { return slot < states_ ? kFree : interval(slot).copy; }
 
   const SafeInterval& interval(int slot) const { return intervals_[slot - states_]; }
-  // The first of these slots that ends after `time`. The slots must be contiguous and of one state
-  // and copy.
+  // The first slot of [first, end) that ends after `time`; `end` if there is none. The slots must
+  // be of one state and copy.
   int first_ending_after(int first, int end, Time time) const {
     for (int many = end - first; many > 0;) {
       const int half = many / 2;

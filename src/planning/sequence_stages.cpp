@@ -1,53 +1,56 @@
 // SPDX-License-Identifier: MIT
 // Stages of the sequence class "prefix, then a stop outside F, then any order".
 //
-// A stage is the set of stops left to count, because the order of the stops counted so far no
-// longer matters. While the prefix lasts, one stop may be next. Right after it, any stop outside F
-// may be next. Later, any stop may be next.
+// A stage is the set of stops left to count, because the order of the stops that are already
+// counted does not affect the continuations. While the prefix lasts, only its next stop may be
+// counted next. Immediately after the prefix, any stop outside F may be next; later, any stop.
 //
-// *Claim: visiting counts.* An agent on a stop that may be counted next loses nothing by counting
-// it. *Proof.* A continuation that counts the stop later realizes a sequence of the class without
-// counting it a second time. If it was the first free stop, it is not in F, so it may be the first.
-// *Consequence.* Each visit has one successor stage, with the one exception below. (It does not
-// follow that fewer stops left are always better: a stop of F visited right after the prefix is not
-// counted, and must be visited again.)
+// *Claim: every visit can count.* If an agent is on a stop that may be counted next, counting it
+// excludes no continuation. *Proof.* A continuation that counts the stop later also realizes a
+// sequence of the class if the stop is counted now instead. If it is then the first free stop, it
+// is not in F, so it may be the first. *Consequence.* Each visit has one successor stage, except in
+// the case below. (The claim does not imply that fewer stops left are always better: a stop of F
+// that is visited immediately after the prefix is not counted, and must be visited again.)
 //
 // *Exception.* Without a destination, an agent whose stops take no time rests on the last stop of
 // its sequence. So every path has one last stop, and the classes of a partition share no sequence.
-// The last visit to that stop is the one at the end. A path that has counted everything may
-// therefore rest on any free stop v: moving v to the end of the order counted leaves a sequence of
-// the class, if its first free stop stays outside F. Moving v breaks that only if v itself was
-// counted first and F is not empty. Then the agent may not rest on the stop w that was counted
-// first, unless w is the only free stop. The stage stores this in `rests`. Because counting w first
-// thus removes a place to rest, visiting a possible first stop need not count it: the search
-// follows both alternatives. That is exact: for a realized sequence with first free stop w and last
-// stop v != w, the search counts w at its visit, skips the possible first stops before it, and
-// counts every other stop as soon as it is visited. If only one stop can be the first, skipping it
-// leads nowhere, and the alternative is left out. The agent may rest on a prefix stop only if that
-// is the last one of a complete prefix.
+// The agent is on that stop at the end of its path, and this visit can be the one that counts.
+// Therefore a path that has counted all stops may rest on any free stop v, if moving v to the end
+// of the counted order gives a sequence of the class. This fails only if v was the first free stop
+// to be counted and F is not empty, because the new first free stop could be in F. So the agent may
+// not rest on the stop w that was counted first, unless w is the only free stop or F is empty. The
+// stage stores this in `rests`. Because counting w first removes a place of rest, a visit of a
+// possible first stop need not count it: the search follows both alternatives. This is exact: for a
+// realized sequence with first free stop w and last stop v != w, the search counts w at its visit,
+// skips the possible first stops before it, and counts every other stop at its first visit after
+// that. If only one stop can be the first, no continuation can skip it, and the search omits this
+// alternative. The agent may rest on a stop of the prefix only if it is the last stop of a complete
+// prefix.
 //
-// *Work.* A stop that takes time is counted when its work is completed. Work is begun only on a
-// stop that may be counted next. It ends with that count, because nothing else can be counted
-// during the work (of the stops on one place, only those that take time are stops: Instance). Work
-// that did not count would be equivalent to waiting. Such work is not done again at the end. So an
-// agent without a destination that has such work may rest on any of its own places, whatever it
-// counted last. As with a destination, the order then does not determine where the agent rests.
+// *Task executions.* A stop that takes time is counted when its execution is completed. An agent
+// starts an execution only on a stop that may be counted next. The execution ends with this count,
+// because nothing else can be counted during it (if a place has stops that take time, it has no
+// other stops: Instance). An execution that does not count would be equivalent to waiting. A task
+// is not executed again at the end of the path. So an agent without a destination that has a stop
+// that takes time may rest on any of its own places, no matter which stop it counted last. As with
+// a destination, the order then does not determine where the agent rests.
 //
 // *Distance.* The distance from a state is the least dist(state, u) + onward(u) over the stops u
 // that may be next, where onward(u) is the least cost from u through the other stops left. Let D(u,
 // w) be the greatest distance to w from any state on u. *Claim: if onward(u) >= D(u, w) +
 // onward(w), then u is not needed if w is kept, for any state.* *Proof.* dist(state, w) <=
-// dist(state, u) + D(u, w). *Consequence.* Only a few stops remain. (No two stops rule out each
-// other: on two places D is positive, and on one place there is work to be done.) Onward costs are
-// the minimum over the states in which a stop may be left, so they never exceed the actual cost.
+// dist(state, u) + D(u, w). *Consequence.* Usually only a few stops are needed. (No two stops rule
+// out each other: on two places D is positive, and two stops on one place take time.) Onward costs
+// are minima over the states in which the agent can leave a stop, so they never exceed the actual
+// cost.
 //
 // *Ports.* If agents turn and the world is of moderate size, each stop has four ports
-// (cost_matrix.h), and all of the above holds for ports instead of stops. Ports make onward costs
-// exact. An agent that counts u does so in a heading, or within a turn after which it is on u in a
-// heading. (Agents that start within a turn are excepted; they have no ports.) So a path that
-// counts u pays at least dist(state, port) + onward(port) for the port that it is in then. A port
-// does not rule out another port of a stop that takes time: an agent at work there in one heading
-// would have to begin again in the other heading.
+// (cost_matrix.h), and all of the above holds for ports instead of stops. With ports, onward costs
+// are exact. An agent counts u in a heading, or within a turn after which it has a heading on u.
+// (Agents that start within a turn have no ports.) So a path that counts u costs at least
+// dist(state, port) + onward(port) from the state on, for the port with that heading. If a stop
+// takes time, none of its ports rules out another one, because an agent that executes the task in
+// one heading would have to start again in the other heading.
 #include "planning/sequence_stages.h"
 
 #include <algorithm>
@@ -65,7 +68,7 @@ bool holds(StopSet set, int stop) {
   return (set & bit(stop)) != 0;
 }
 
-// The stops of a prefix.
+// Returns the set of the stops of a prefix.
 StopSet checked_set(const Sequence& prefix, StopSet all) {
   StopSet set = 0;
   for (Stop stop : prefix) {
@@ -148,9 +151,8 @@ std::shared_ptr<const std::int8_t[]> AgentStops::stops_of_states(const Instance&
   return own;
 }
 
-// Once an agent is there for good, and no constraint bars the place any more, it turns and works
-// without waiting: at most all of its work there, plus max_turn_time() for the turns before and
-// after.
+// After its last arrival, when no constraint bars the place any more, an agent need not wait. It
+// executes at most all of its tasks there, and turns for at most max_turn_time() in total.
 Time AgentStops::longest_finish(Place place) const {
   Time longest = world_->max_turn_time(kind_);
   for (std::size_t stop = 0; stop < places_.size(); ++stop)
@@ -212,7 +214,7 @@ Time SequenceStages::to_rest(const Stage& stage, State state) const {
   return best;
 }
 
-// The stops of `left` that may be counted next.
+// Returns the stops of `left` that may be counted next.
 StopSet SequenceStages::next_of(StopSet left) const {
   for (Stop stop : class_.prefix)
     if (holds(left, stop)) return bit(stop);
@@ -224,7 +226,8 @@ StopSet SequenceStages::rests_after(const Stage& stage, int stop) const {
   return first ? stage.rests & ~bit(stop) : stage.rests;
 }
 
-// Least costs from each port of `stop`, counted next, through the other stops of `left` to the end.
+// Returns the least cost from each port of `stop`, which is counted next, through the other stops
+// of `left` to the end.
 SequenceStages::PortCosts SequenceStages::onward_costs(StopSet left, int stop) const {
   const int ports = stops_.ports();
   const int first = stop * ports;

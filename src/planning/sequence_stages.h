@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Stops of one agent, and the stages of a sequence class: the progress that the low level tracks
-// when it chooses the order of visits itself.
+// Stops of one agent, and the stages of a sequence class. A stage is the progress of an agent in
+// the low level that chooses the order of visits itself.
 #pragma once
 
 #include <algorithm>
@@ -21,14 +21,15 @@
 
 namespace grove::detail {
 
-// Stops of one agent, with all data that does not depend on the sequence class. Its SequenceStages
-// share it. Copies share the data that does not change; a copy may be used by another thread.
+// Stops of one agent, with all data that does not depend on the sequence class. All SequenceStages
+// of the agent share it. Copies share the immutable data, and different threads may use different
+// copies.
 class AgentStops {
  public:
   static constexpr int kNoStop = -1;
 
-  // `instance` and `distances` must outlive this. The large arrays lie in the memory of the
-  // distances, if that is shared.
+  // `instance` and `distances` must outlive this. If the distances are in shared memory, the large
+  // arrays are there, too.
   AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent);
 
   const Instance& instance() const { return *instance_; }
@@ -38,25 +39,25 @@ class AgentStops {
   Place start_place() const { return start_place_; }
   std::optional<Place> destination() const { return destination_; }
   Place place(int stop) const { return places_[stop]; }
-  // The stop that an agent visits in this state: the state is on the stop's place or, if the stop
-  // takes time, its work has just been completed. Returns kNoStop if there is none. A value less
-  // than kNoStop means that the agent is at work; see stop_of_work().
+  // The stop that the agent visits in this state: the state is on the place of the stop and, if the
+  // stop takes time, it is the state in which the task execution ends. kNoStop: none. Less than
+  // kNoStop: the agent is executing a task; see stop_of_work().
   int stop_at(State state) const { return stop_at_[state]; }
-  // For a value of stop_at() less than kNoStop: the stop at which the agent is at work. Returns
-  // kNoStop if the work is not that of one of its own stops.
+  // For a value of stop_at() less than kNoStop: the stop at which the agent is executing a task.
+  // Returns kNoStop if the task is not one of its own stops.
   static int stop_of_work(int at) { return at == kForeignWork ? kNoStop : kFirstWork - at; }
   // Does the stop take time?
   bool takes_time(int stop) const { return (work_stops_ >> stop & 1) != 0; }
   StopSet all() const { return all_stops(count()); }
 
-  // True if the agent rests on the last stop of its sequence. Otherwise it rests where to_rest() is
-  // 0, whatever the sequence.
+  // True if the agent rests on the last stop of its sequence. Otherwise it rests in a state with
+  // to_rest() == 0, for every sequence.
   bool rests_on_last_stop() const { return !to_rest_; }
-  // Upper bound on the steps that the agent still turns and works on `place` after it has come to
-  // rest there for good, if it does not wait in between.
+  // Upper bound on the steps from the last arrival of the agent on `place` to its finish there, if
+  // it does not wait in between: all its turns and all its task executions there.
   Time longest_finish(Place place) const;
 
-  // Number of ports of each stop (CostMatrix). If it is 1, a port is identified with its stop.
+  // Number of ports of each stop (CostMatrix). If it is 1, port s is the port of stop s.
   int ports() const { return ports_; }
   // Distance from a state to a port.
   Time to_port(State state, int port) const { return to_port_[port][state]; }
@@ -75,8 +76,9 @@ class AgentStops {
   Time longest_leg(int from, int to) const {
     return longest_legs_[static_cast<std::size_t>(from) * port_count() + to];
   }
-  // Upper bound on the steps to turn from a state on a stop to a state in which `port` of the stop
-  // is left: the heading of the port or, with one port per stop, any base state.
+  // Upper bound on the turning time, in steps, from a state on a stop to the state in which the
+  // agent leaves by `port` of this stop: the state with the heading of the port or, with one port
+  // per stop, any base state.
   Time turn(State state, int port) const;
 
   // Costs to go over all sequences, not only those of a class.
@@ -88,7 +90,8 @@ class AgentStops {
   std::shared_ptr<const std::int8_t[]> stops_of_states(const Instance& instance,
                                                        SharedArray shared) const;
 
-  // In stop_at_, work on stop s has the value kFirstWork - s.
+  // Values in stop_at_: kFirstWork - s while the agent executes the task at stop s, kForeignWork
+  // while it executes a task that is not one of its stops.
   static constexpr int kFirstWork = -2;
   static constexpr int kForeignWork = -128;
 
@@ -105,15 +108,16 @@ class AgentStops {
   StopSet work_stops_ = 0;
   std::shared_ptr<const std::int8_t[]> stop_at_;  // by state; owns nothing if the array is shared
   std::vector<DistanceView> to_port_;
-  std::vector<Time> longest_legs_;  // by port, then port
+  std::vector<Time> longest_legs_;  // by first port, then second port
   int ports_ = 1;
   DistanceView to_rest_;
   CostToGo cost_to_go_;
 };
 
-// Stages of one agent under one sequence class, numbered in the order in which the search reaches
-// them. A stage is the agent's progress: the stops left to count and, without a destination, the
-// stops where it may rest. A path *realizes* a sequence if it visits the stops in that order and,
+// Stages of one agent under one sequence class, numbered in the order of their creation. A stage is
+// the progress of the agent: the stops left to count and, without a destination, the stops where it
+// may rest. The agent *counts* a stop by one of its visits there, which is then the visit that the
+// sequence refers to. A path *realizes* a sequence if it visits the stops in that order and,
 // without a destination, rests on the last one. One thread at a time; several SequenceStages of the
 // same thread may share their AgentStops.
 class SequenceStages {
@@ -123,15 +127,15 @@ class SequenceStages {
 
   struct Stage {
     StopSet left = 0;          // stops not counted yet
-    StopSet next = 0;          // of these, the stops that may be counted next
+    StopSet next = 0;          // stops of `left` that may be counted next
     StopSet rests = 0;         // if the agent rests on its last stop: the stops where it may rest
-    bool may_skip = false;     // visiting a stop of `next` need not count it
+    bool may_skip = false;     // a visit of a stop in `next` need not count it
     std::int32_t first = 0;    // index in onward_ of the first onward port of the stage
-    std::int32_t nearest = 0;  // the first `nearest` of them determine distance()
+    std::int32_t nearest = 0;  // number of those that determine distance(); they come first
     std::int32_t count = 0;
   };
-  // A port of a stop that may be counted next, and the least cost from that port through all stops
-  // that are left afterwards.
+  // A port of a stop that may be counted next, and the least cost from this port through all other
+  // stops that are left to the end.
   struct Onward {
     std::int32_t port;
     Time cost;
@@ -140,8 +144,8 @@ class SequenceStages {
   // `stops` must outlive this. Throws std::invalid_argument if the prefix repeats a stop or
   // contains a stop that the agent does not have.
   SequenceStages(AgentStops& stops, SequenceClass sequence_class);
-  // The same with costs to go other than those of `stops`. They must be for this class and for as
-  // many stops, and must outlive this.
+  // As above, but with `cost_to_go` in place of the costs to go of `stops`. It must be valid for
+  // this class and have the same number of stops and ports, and must outlive this.
   SequenceStages(AgentStops& stops, SequenceClass sequence_class, CostToGo& cost_to_go);
 
   AgentStops& stops() { return stops_; }
@@ -154,22 +158,22 @@ class SequenceStages {
   bool plausible() const;
 
   // Returns the first stage, in which no stop is counted. Returns kOutside if the costs to go cover
-  // no member of the class. Deletes all stages if the costs to go were widened since the last call.
-  // Call it before each search.
+  // no member of the class. Deletes all stages if outside_bound() of the costs to go has changed
+  // since the last call. Call it before each search.
   StageId first_stage();
   const Stage& stage(StageId id) const { return stages_[id]; }
   int stage_count() const { return static_cast<int>(stages_.size()); }
 
-  // The stage after counting `stop`, which must be in Stage::next. Returns kOutside if the costs to
-  // go do not cover it.
+  // The stage after the agent counts `stop`, which must be in Stage::next. Returns kOutside if the
+  // costs to go do not cover that stage.
   StageId after(StageId id, int stop) {
     GROVE_ASSERT(stages_[id].next >> stop & 1, "a stop that is counted may be next");
     const StageId known = after_[static_cast<std::size_t>(id) * stride_ + stop];
     return known == kUnknown ? make_after(id, stop) : known;
   }
 
-  // Calls reach(stage) for each stage that an agent in stage `id` may be in after it has arrived in
-  // `state`. Returns false if there is another such stage that the costs to go do not cover.
+  // Calls reach(stage) for each stage in which an agent of stage `id` can be after it arrives in
+  // `state`. Returns false if the costs to go do not cover one of these stages.
   template <class Reach>
   bool on_arrival(StageId id, State state, Reach reach) {
     const int at = stops_.stop_at(state);
@@ -188,8 +192,8 @@ class SequenceStages {
     return true;
   }
 
-  // Least cost from a state through all stops that are left, over the known onward ports. Returns
-  // kNever or more if there is none.
+  // Least cost from a state through all stops that are left to the place of rest, over the known
+  // onward ports. Returns kNever or more if no route is known.
   Time distance(StageId id, State state) const {
     const Stage& s = stages_[id];
     if (s.left == 0) return to_rest(s, state);
@@ -198,7 +202,7 @@ class SequenceStages {
       best = std::min(best, stops_.to_port(state, o.port) + o.cost);
     return best;
   }
-  // All known onward ports of a stage. The first Stage::nearest of them determine distance().
+  // All known onward ports of a stage; the first Stage::nearest of these determine distance().
   std::span<const Onward> onward(const Stage& stage) const {
     return {onward_.data() + stage.first, static_cast<std::size_t>(stage.count)};
   }
@@ -214,7 +218,7 @@ class SequenceStages {
  private:
   static constexpr StageId kUnknown = -2;
 
-  // Work is begun only on a stop that may be counted next.
+  // An agent starts a task execution only on a stop that may be counted next.
   static bool may_work(const Stage& stage, int at) {
     const int stop = AgentStops::stop_of_work(at);
     return stop != AgentStops::kNoStop && (stage.next >> stop & 1) != 0;
@@ -229,23 +233,24 @@ class SequenceStages {
   void add_onward(Stage& stage);
 
   AgentStops& stops_;
-  std::optional<CostToGo> own_;  // of the class, unless those of all sequences serve it
+  std::optional<CostToGo> own_;  // costs to go of the class; nullopt: those of `stops_` serve it
   CostToGo* cost_to_go_;
   SequenceClass class_;
-  StopSet free_;                   // stops that are not in the prefix
-  StopSet first_free_;             // of these, the stops that may be the first
-  bool rest_is_not_first_;         // without a destination: see the .cpp
-  std::size_t stride_;             // of after_
-  Time built_outside_bound_ = -1;  // outside_bound() of the costs to go when the stages were made
+  StopSet free_;            // stops that are not in the prefix
+  StopSet first_free_;      // stops of free_ that may be the first of them
+  bool rest_is_not_first_;  // without a destination: see the head of the .cpp
+  std::size_t stride_;      // row length of after_: number of stops
+  Time built_outside_bound_ =
+      -1;  // outside_bound() of the costs to go for which the stages are valid
   StageId first_stage_ = kOutside;
   std::vector<Stage> stages_;
   std::vector<StageId> after_;  // by stage, then stop
   std::vector<Onward> onward_;
-  std::vector<StopSetIndex> index_;  // stages by `left`; [1 + s]: those that may not rest on s
+  std::vector<StopSetIndex> index_;  // by `left`; [1 + s]: stages without rest on s
 };
 
-// The sequence of the class that a path realizes. Each stop is counted as early as possible;
-// without a destination, the stop that the path rests on is counted last. Throws
+// Returns the sequence of the class that a path realizes, where each stop is counted as early as
+// possible. Without a destination, the stop on which the path rests is counted last. Throws
 // std::invalid_argument if the path realizes no sequence of the class.
 Sequence realized_sequence(const SequenceStages& goals, const Path& path);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Computes earliest arrivals over (safe interval, has the stop been visited?) by A*. The earliest
-// arrival in an interval can do after waiting everything that a later one can. So a pair that is
-// not reached is unreachable, and no pair can be reached earlier than the search reaches it. The
-// order is time plus a lower bound on the time to go: distances without intervals, which are
-// consistent.
+// A* for the earliest arrivals at pairs (safe interval, has the agent visited the stop?). An agent
+// that arrives earlier in an interval can wait and then continue like one that arrives later.
+// Therefore a pair that the search does not reach is unreachable, and no pair is reachable earlier
+// than the search reaches it. Pairs are ordered by time plus a lower bound on the time to go, which
+// is a distance without intervals and hence consistent.
 #include "planning/single_stop_bound.h"
 
 #include <algorithm>
@@ -20,8 +20,8 @@ Time SingleStopBound::min_cost(const AgentStops& stops, Time known_bound, const 
   return bound_;
 }
 
-// The first time at which the agent can rest for ever after visiting the stop `via`, but at least
-// least_; kNever if that is impossible.
+// Returns the first time at which the agent can rest for ever after visiting the stop `via`, at
+// least least_; kNever if that is impossible.
 Time SingleStopBound::min_cost_through(int via) {
   via_ = via;
   after_via_ = 0;
@@ -49,7 +49,8 @@ Time SingleStopBound::min_cost_through(int via) {
   return kNever;
 }
 
-// Lower bound on the time to go; kNever if it is impossible.
+// Lower bound on the steps to a state of rest, through via_ unless it was visited; kNever if it is
+// unreachable.
 Time SingleStopBound::to_go(State state, bool visited) const {
   if (!visited) return std::min(kNever, stops_->distance(state, via_) + after_via_);
   return stops_->rests_on_last_stop() ? 0 : stops_->to_rest(state);
@@ -63,7 +64,7 @@ bool SingleStopBound::may_rest(int slot) const {
 
 void SingleStopBound::reach(int slot, State state, Time time, bool visited) {
   const int at = stops_->stop_at(state);
-  if (at < AgentStops::kNoStop && AgentStops::stop_of_work(at) < 0) return;  // not its own work
+  if (at < AgentStops::kNoStop && AgentStops::stop_of_work(at) < 0) return;  // not its stop
   visited = visited || at == via_;
   Time& earliest = earliest_[index(slot, visited)];
   if (earliest <= time) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lower bound on the cost of a path through many stops, from each stop separately.
+// Lower bound on the cost of a path through many stops, computed for each stop separately.
 #pragma once
 
 #include <vector>
@@ -11,22 +11,24 @@
 
 namespace grove::detail {
 
-// For each stop: when can the agent come to rest after visiting this stop? The other stops only
-// make it later, so each stop bounds its cost. This takes polynomial time; the question for all
-// stops together is NP-hard. It detects the common infeasible case: a door that is closed before or
-// behind the agent, for ever or for long.
+// Computes for each stop the earliest time at which the agent can come to rest after visiting this
+// stop. The other stops only make that time later, so it is a lower bound on the cost. This takes
+// polynomial time, whereas the problem for all stops together is NP-hard. The bound detects the
+// most common infeasible case: a door that is closed before or behind the agent, for ever or for a
+// long time. One thread at a time.
 class SingleStopBound {
  public:
-  // Both must outlive this.
+  // `world` and `intervals` must outlive this.
   SingleStopBound(const World& world, SafeIntervals& intervals)
       : world_(world), intervals_(intervals) {}
 
-  // Lower bound on the cost of a path through all stops under the intervals, given the bound
-  // `known_bound`; kNever if there is no path. If a limit is reached, it examines fewer stops.
+  // Returns a lower bound on the cost of a path through all stops under the intervals, at least the
+  // known lower bound `known_bound`; kNever if no path exists. If a limit is reached, it examines
+  // fewer stops.
   Time min_cost(const AgentStops& stops, Time known_bound, const Limits& limits);
 
  private:
-  using Queue = BasicBucketQueue<std::uint8_t>;  // progress: 1 if `via` was visited
+  using Queue = BasicBucketQueue<std::uint8_t>;  // progress: 1 if via_ was visited
 
   static std::size_t index(int slot, int visited) {
     return 2 * static_cast<std::size_t>(slot) + static_cast<std::size_t>(visited);
@@ -43,7 +45,7 @@ class SingleStopBound {
   const AgentStops* stops_ = nullptr;
   int via_ = AgentStops::kNoStop;
   Time bound_ = 0;
-  Time after_via_ = 0;  // lower bound on the time from `via` to where the agent may rest
+  Time after_via_ = 0;  // lower bound on the steps from via_ to a state of rest
 };
 
 }  // namespace grove::detail

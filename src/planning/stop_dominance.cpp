@@ -1,32 +1,35 @@
 // SPDX-License-Identifier: MIT
 // Dominance between labels at stops (*gates*).
 //
-// *Rule.* Let G be a label that was expanded on stop u, just counted at time g in an interval [..,
-// b] of u's place, coming from stage s. Let L be another label of s. A path P through L counts some
-// stop next. If that is u, at a time in [g, b], then G could stand there as well, waiting, in the
-// same stage after u: from there on P is open to G. L cannot count u before t + dist(L, u). So if
-// that is g or later, L is needed for u only in a later interval, which begins at n; such paths
-// cost n + onward(u) or more. For each onward stop u that has no such G the bound is t + dist(L, u)
-// + onward(u). L is postponed to the least of these bounds; if there is none, it is dropped.
-// (Onward stops that the graph does not cover cost outside_bound() or more. A label dropped with
-// such a stop counts as dropped for its stage.)
+// *Rule.* Let G be a label that was expanded on stop u, which it has just counted at time g, in an
+// interval [.., b] of the place of u and from stage s. Let L be another label of s, at time t. A
+// path P through L counts some stop next. If this stop is u and is counted at a time in [g, b], the
+// agent of G can wait there until then, is in the same stage, and can continue like P. L cannot
+// count u before t + dist(L, u). If that is g or later, L is needed for u only in a later interval.
+// If the next interval begins at n, such paths cost n + onward(u) or more. For an onward stop u
+// without such a G the bound is t + dist(L, u) + onward(u). L is postponed to the least of these
+// bounds over all onward stops, and dropped if there is no bound. (Paths through onward stops that
+// the graph does not cover cost outside_bound() or more. If a label with such a stop is postponed
+// or dropped, it counts as dropped because of its stage.)
 //
 // *Soundness* is that of the gates in fixed_order_goals.h: if L is postponed beyond the optimal
-// cost, an optimal path changes over to a G with fewer stops left, so this ends. With a fixed
-// sequence a gate holds for all earlier stages. Here it holds for one stage, because earlier stages
-// may count other stops on the way to u. The earlier stages are cut off by gates of their own.
+// cost, an optimal path can be replaced by one through a G with fewer stops left, so only finitely
+// many replacements follow. With a fixed sequence a gate holds for all earlier stages. Here it
+// holds for one stage, because labels of earlier stages can count other stops on the way to u.
+// Earlier stages have gates of their own.
 //
-// *Turning agents.* If agents turn, L may count u in another state than G. Then G turns, too, on
-// its place and in its interval, for a bounded number of steps. So the gate of a port dominates
-// those labels that count u by this port at least that many steps later than g. (At the end of work
-// on u, G has all moves of the state that it worked in.)
+// *Turning agents.* If agents turn, L can count u in a different state from G. The agent of G can
+// then turn, too, on its place and within its interval, for a bounded number of steps. So the gate
+// of a port dominates labels that count u by this port at least this number of steps after g.
+// (After a task execution on u, G has all moves of the state in which it executed the task.)
 //
-// *Later interval* refers to the time of arrival. If u may not be rested on by t and G arrived by
-// then: if P arrives by t, it leaves u again, as G can; otherwise it arrives at n = t + 1 or later.
+// *Later interval* refers to the time of arrival. If agents may not rest on u by r and G arrived by
+// r, there are two cases: if P arrives by r, it leaves u again, as G can; otherwise it arrives at n
+// = r + 1 or later.
 //
-// *Stand there as well* must leave open what P does next. If u has copies, a G in a copy that is
-// barred from leaving the corridor makes no gate. A G in the free copy makes one, because it can do
-// everything that the others can.
+// *Copies.* G must have all continuations of P. If u is in a corridor with copies, a G in a copy in
+// which a traversal is barred makes no gate. A G in the free copy makes one, because it has all
+// continuations of agents in the other copies.
 #include "planning/stop_dominance.h"
 
 #include <algorithm>
@@ -40,7 +43,7 @@ void StopDominance::begin_search() {
   gates_.clear();
 }
 
-// Keeps one gate per onward port: the one that postpones furthest.
+// Stores one gate per onward port: the one that postpones labels to the latest time.
 void StopDominance::close(const SequenceStages& goals, StageId from, State state, Time time,
                           Time until) {
   const AgentStops& stops = goals.stops();

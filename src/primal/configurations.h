@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// LaCAM configurations: a compact set with lookup.
+// Compact hash set of LaCAM configurations.
 #pragma once
 
 #include <algorithm>
@@ -12,14 +12,14 @@
 
 namespace grove::detail {
 
-// State of one agent in a configuration: where it is, and the stage that stores its stops left.
+// One agent in a configuration: its state, and the stage that identifies its remaining stops.
 struct AgentState {
   State state;
   VisitStages::Stage stage;
   friend bool operator==(const AgentState&, const AgentState&) = default;
 };
 
-// Numbered rows of equal length, stored in blocks that never move.
+// Rows of equal length, numbered from 0, in blocks that never move in memory.
 template <class T>
 class RowBlocks {
  public:
@@ -31,7 +31,7 @@ class RowBlocks {
     return {blocks_[i / per_block_].get() + i % per_block_ * width_, width_};
   }
   std::int32_t count() const { return count_; }
-  // Bytes that the next add() allocates.
+  // Number of bytes that the next add() allocates.
   std::size_t growth() const { return is_full() ? per_block_ * width_ * sizeof(T) : 0; }
   std::span<T> add() {
     if (is_full()) blocks_.push_back(std::make_unique<T[]>(per_block_ * width_));
@@ -62,7 +62,7 @@ class Configurations {
 
   // Inserts `places` and returns its number, which is count() - 1 if it is new.
   Id insert(std::span<const AgentState> places);
-  // Bytes that the next insert() may allocate.
+  // Maximum number of bytes that the next insert() allocates.
   std::size_t growth() const;
 
  private:

@@ -2,36 +2,40 @@
 // LaCAM (Okumura, AAAI 2023) over configurations of (state, stops left) per agent, with PIBT as the
 // configuration generator.
 //
-// *Search.* Depth first and lazy. The configuration on top of the stack generates one successor at
-// a time, under the next one of its constraints. Constraints form a tree, which is searched breadth
-// first. Its root constrains no agent. The children of a constraint of depth d constrain the agent
-// of priority d + 1 to each state to which it can move. So the first successors are those that PIBT
-// prefers. The leaves constrain every agent and enumerate all successors. A configuration leaves
-// the stack only when its tree is used up, so in the end every reachable configuration is expanded.
-// A successor that was met before is pushed again if it has constraints left (as in LaCAM*, IJCAI
-// 2023), which leads out of loops.
+// *Search.* Depth first and lazy: each expansion of the configuration on top of the stack generates
+// one successor, under the next node of the configuration's constraint tree. This tree is searched
+// breadth first. Its root constrains no agent. The children of a node at depth d constrain the
+// agent of priority d + 1, each to one of the states that it can enter. Therefore the first
+// successors are those that PIBT prefers, and the leaves, which constrain every agent, enumerate
+// all successors. A configuration leaves the stack only when its constraint tree is exhausted, so
+// in the end every reachable configuration is expanded. A successor that was generated before is
+// pushed again if its tree is not exhausted (as in LaCAM*, IJCAI 2023), which leads out of loops.
 //
-// *Stops.* In contrast to LaCAM, agents have stops. An agent that is on a stop has visited it,
-// whatever the order. The stops left are part of the configuration. Fixing the order in which an
-// agent *heads* for its stops loses no solution where every step can be undone: stops that can be
-// visited in one order can then be visited in any other.
+// *Stops.* In contrast to the original LaCAM, agents have stops. An agent that is on a stop has
+// visited it, whatever the order. The remaining stops are part of the configuration. The order in
+// which an agent *heads* for its stops only determines PIBT's preferences, so the search is
+// exhaustive under any order, with one exception: if an agent, even without the other agents,
+// cannot visit its stops in its order, the search ends at once. Where every step can be undone this
+// loses no plan, because stops that can be visited in one order can be visited in any other. With
+// one-way moves a plan with a different order can exist.
 //
 // *Guide.* A guide (traffic_guided_lacam.cpp) leads nearly all agents to their destinations, but
-// the last ones may move in circles, each making way for the other: warehouse-10-20-10-2-1 with 900
-// agents had 36 of them left after 204 steps and after 3,800. So as soon as a configuration is met
-// again, distances in steps replace the guide.
+// the last ones can move in circles, each making way for the other. On warehouse-10-20-10-2-1 with
+// 900 agents, 36 agents had not arrived after 204 steps, nor after 3,800. Therefore distances in
+// steps replace the guide as soon as a configuration is generated a second time.
 //
 // *No destination.* An agent without a destination heads for one of its stops to rest there, but a
 // configuration is a goal wherever the agent rests.
 //
-// *Priority.* The longer an agent has been under way, the earlier it chooses. Ties are broken by
-// distance at the start, longest first. Agents at rest come last: they make way and are then under
-// way again. (Counting from the last stop instead costs 6 % more on the dense instances below and
-// fails more often on the densest. Longest distance *left* first costs four times as much.)
+// *Priority.* The more joint steps ago an agent could last rest, the earlier it chooses. Ties are
+// broken by distance at the start, longest first. Agents that may rest where they are choose last.
+// If they make way, counting starts again. (Counting steps from the last visited stop instead gives
+// plans that cost 6 % more on the dense instances below, and fails more often on the densest. With
+// the longest *remaining* distance first, plans cost four times as much.)
 //
-// *Measured* with the restarts of lacam_with_restarts.cpp on one core, scenarios 1-5 of Moving AI
-// maps and 3 seeds each, agents / tasks; a plan was found in all runs. Cost as a multiple of the
-// cheapest sequences without conflicts.
+// *Measured* with the restarts of lacam_with_restarts.cpp on one core, on scenarios 1-5 of Moving
+// AI maps with 3 seeds each (agents/tasks). All runs found a plan. Costs are multiples of the cost
+// of the cheapest sequences without conflicts.
 //
 //                           ms, median and worst   cost, median
 //   room-32-32-4 120/120         2      2              1.73
@@ -41,7 +45,7 @@
 //   room-64-64-8 200/600        14     20              1.40
 //   den312d 200/600             14     23              1.31
 //
-// Without swaps.cpp, 7 of 10 runs on random-32-32-20 250/250 ended within 0.5 s.
+// Without swaps.cpp, only 7 of 10 runs on random-32-32-20 250/250 ended within 0.5 s.
 #include "primal/lacam.h"
 
 #include <algorithm>
@@ -108,15 +112,15 @@ Lacam::Outcome Lacam::run(const Limits& limits, std::int64_t& steps) {
   return Outcome::kFound;
 }
 
-// Is there memory for the next expansion? Asks before it allocates, because this search must not
-// end the run for lack of memory.
+// True if there is memory for the next expansion. Tested before the allocation, because this search
+// must not end the run for lack of memory.
 bool Lacam::has_room(const Limits& limits) const {
   const auto growth = [](const auto& vector, std::size_t more) {
     return vector.size() + more > vector.capacity() ? 2 * vector.capacity() * sizeof(vector[0]) : 0;
   };
   const std::size_t bytes = configurations_.growth() + ages_.growth() + growth(nodes_, 1) +
                             growth(constraints_, 5) + growth(stack_, 1);
-  // Twice as much, because memory that was granted before may not be in use yet.
+  // Requires twice the growth, because memory granted before is possibly not in use yet.
   return bytes == 0 || limits.memory_allows(2 * bytes + kMemoryToSpare);
 }
 

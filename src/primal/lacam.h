@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// LaCAM: one depth-first search over configurations, without restarts.
+// LaCAM without restarts: one depth-first search over configurations.
 #pragma once
 
 #include <cstdint>
@@ -17,32 +17,33 @@ class Lacam {
  public:
   using Outcome = LacamWithRestarts::Outcome;
 
-  // Arguments as for LacamWithRestarts. `guide`: distance fields by which agents choose their paths
-  // until a configuration is met again; nullptr: distances in steps. The fields must outlive this.
+  // `problem`, `orders` and `seed` are as for LacamWithRestarts. `guide`: distance fields that
+  // agents follow until a configuration is reached a second time; nullptr: distances in steps. The
+  // fields must outlive this.
   Lacam(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed,
         const LegFields* guide = nullptr);
   Lacam(const Lacam&) = delete;
   Lacam& operator=(const Lacam&) = delete;
 
-  // Makes at most `steps` joint steps and subtracts the number made from `steps`.
+  // Makes at most `steps` joint steps, and subtracts their number from `steps`.
   Outcome run(const Limits& limits, std::int64_t& steps);
   const std::optional<Plan>& plan() const { return plan_; }
   std::int64_t configurations() const { return configurations_.count(); }
 
  private:
   using Id = Configurations::Id;
-  // Steps since an agent was last at rest; 1 at the start.
+  // Joint steps since an agent was last where it may rest; 1 for an agent that starts elsewhere.
   using Age = std::uint16_t;
   static constexpr Age kArrived = 0;
   static constexpr Age kOldest = UINT16_MAX;
   using ConstraintId = std::int32_t;
   static constexpr ConstraintId kNone = -1;
 
-  // A node of the constraint tree. It stands for itself and its ancestors. Its depth d > 0 means
-  // that it constrains the agent of d-th priority.
+  // A node of a LaCAM constraint tree. It represents the constraints of the node and its ancestors.
+  // A node at depth d > 0 constrains the agent with the d-th highest priority.
   struct Constraint {
     ConstraintId above;
-    ConstraintId next;  // the next one in its configuration's queue
+    ConstraintId next;  // next node in the configuration's queue
     State state;
     std::int32_t depth;
   };
@@ -50,7 +51,7 @@ class Lacam {
   // Search data of a configuration.
   struct Node {
     Id parent;
-    ConstraintId first;  // the queue of its constraints
+    ConstraintId first;  // first node in its constraint queue
     ConstraintId last;
   };
 
@@ -85,10 +86,10 @@ class Lacam {
   std::optional<Plan> plan_;
   bool is_guided_;
 
-  // Data of the configuration that is expanded.
+  // Data of the configuration that is being expanded.
   Id ranked_ = -1;
   std::vector<AgentIndex> ranking_;  // agents by priority
-  std::vector<AgentIndex> by_way_;  // agents by distance from the start, longest first: breaks ties
+  std::vector<AgentIndex> by_way_;   // agents by distance at the start, longest first: breaks ties
   std::vector<LacamConstraint> orders_;
   std::vector<AgentState> places_;
   std::vector<State> next_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// First plans for dense instances by LaCAM with restarts: all agents move in joint steps.
+// LaCAM with restarts: finds first plans, in particular for dense instances, by joint steps of all
+// agents.
 #pragma once
 
 #include <cstdint>
@@ -15,22 +16,23 @@
 
 namespace grove::detail {
 
-// Searches for any valid plan, in slices of any length; it does not optimise the cost. Restarts
-// after first_steps joint steps, and then after twice as many each time. Deterministic: the same
-// arguments make the same plan, however the work is sliced. One thread at a time.
+// Searches for any valid plan, without optimising its cost, in slices of any length. Restarts after
+// first_steps joint steps, and then each time after twice as many. Deterministic: the same
+// arguments yield the same plan, however the search is divided into slices. One thread at a time.
 class LacamWithRestarts {
  public:
   enum class Outcome : std::uint8_t {
     kFound,      // there is a plan()
-    kExhausted,  // every reachable configuration was expanded, and none is a goal. Heuristic code:
-                 // this is no proof of infeasibility
+    kExhausted,  // every reachable configuration was expanded and none is a goal, or an agent
+                 // cannot visit its stops in its order (lacam.cpp). Not used as a proof of
+                 // infeasibility
     kWorking,    // the slice is used up
     kStopped,    // a limit was reached, or so little memory is left that continuing would reach one
   };
 
-  // `orders`: by AgentIndex, the complete sequence in which an agent heads for its stops. Stops
+  // `orders`: by AgentIndex, the complete sequence in which the agent heads for its stops. Stops
   // that it passes earlier count as visited. An agent without a destination heads for the last stop
-  // of its sequence to rest there. Any orders are valid; good ones make good plans
+  // of its sequence to rest there. Every complete sequence is accepted; good ones yield good plans
   // (visit_orders.h). `problem` must outlive this. Throws std::invalid_argument if an order is not
   // complete.
   LacamWithRestarts(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed,
@@ -39,14 +41,14 @@ class LacamWithRestarts {
   LacamWithRestarts(LacamWithRestarts&&) noexcept;
   LacamWithRestarts& operator=(LacamWithRestarts&&) noexcept;
 
-  // Makes at most `slice` joint steps, of about 0.15 us per agent each. May be called again after
-  // kWorking and kStopped.
+  // Makes at most `slice` joint steps. A joint step takes about 0.15 us per agent. Can be called
+  // again after kWorking and kStopped.
   Outcome run(const Limits& limits, std::int64_t slice);
 
   const std::optional<Plan>& plan() const;
   // Joint steps made so far.
   std::int64_t steps() const;
-  // Configurations stored now.
+  // Number of configurations stored by the current search.
   std::int64_t configurations() const;
 
  private:

@@ -1,36 +1,40 @@
 // SPDX-License-Identifier: MIT
 // Repair operators and acceptance of large neighbourhood search.
 //
-// *Exact and greedy search.* The low level's heuristic ignores the other agents. In dense instances
-// the search therefore expands every label with f below the cost of the best path. A greedy order
-// (inflation_percent) finds good paths much sooner there, and slightly worse paths elsewhere. So
-// each order is a repair operator with its recent gain and work; usually the operator with the best
-// ratio gain / work is used.
+// *Exact and greedy search.* The low level's heuristic ignores the other agents, so an exact search
+// expands every label with f below the cost of the best path, which are very many in dense
+// instances. A greedy search (inflation_percent) finds good paths much sooner there, and slightly
+// worse paths elsewhere. Therefore both searches are repair operators with statistics of recent
+// gain and effort; usually the operator with the best ratio of gain to effort is used.
 //
-// *Label limit.* A call is abandoned after many times the labels of calls that find a path, because
-// mostly there is no path, and the time is better spent elsewhere. Until an operator has found a
-// path, its limit is first_labels, which doubles after each failure.
+// *Label limit.* A low-level call is aborted after many times the mean number of labels of calls
+// that found a path, because by then usually no path exists, and the time is better spent
+// elsewhere. Until an operator has found a path, its limit is first_labels, which doubles after
+// each failure.
 //
-// *Penalised costs.* With a dual solution, an agent can leave to other agents the places and times
-// for which these would pay. The cheapest path is found first and then replaced by the path of
-// least penalised cost.
+// *Penalised costs.* With a dual solution, an agent can avoid the places and times that other
+// agents need more, because the multipliers penalise them. The cheapest path is found first and
+// then replaced by the path of least penalised cost.
 //
-// *Acceptance.* LNS soon ends in a local optimum. After kRecordDeviationStart iterations per
-// agent without improvement, it also accepts plans that cost a little more than the best one so
-// far: record_deviation times (best cost - sum of individual costs), because escaping takes more
-// where congestion costs more. Until then no higher cost is accepted, because a plan that still
-// improves quickly would improve more slowly: random-32-32-20, 200 agents, ten seconds, 5,202 to
-// 5,238 instead of 5,149. Nor is one accepted while the best cost exceeds the sum of individual
-// costs by more than record_deviation_max_loss times that sum: instances so dense improve for the
-// whole run.
+// *Acceptance.* LNS soon reaches a local optimum. After kRecordDeviationStart iterations per agent
+// without improvement, it also accepts plans that cost up to record_deviation times (best cost -
+// sum of individual costs) more than the best plan so far. The deviation is proportional to this
+// difference, because escaping from a local optimum takes more where congestion costs more. Higher
+// costs are not accepted earlier, because they slow down a search that still improves quickly:
+// random-32-32-20, 200 agents, ten seconds, 5,202 to 5,238 instead of 5,149. Nor are they accepted
+// while the best cost exceeds the sum of individual costs by more than record_deviation_max_loss
+// times that sum, because plans of such dense instances improve during the whole run.
 //
-// *Cutoff.* The cutoff of a call is the old cost (plus what acceptance allows), less the new paths
-// so far, less the individual costs of the agents still to be planned. Above it the iteration fails
-// anyway.
+// *Cutoff.* The cutoff of a low-level call is the cost of the removed paths, plus the accepted
+// increase, minus the costs of the new paths so far, minus the individual costs of the agents still
+// to be planned. If these individual costs are optimal, a path above the cutoff makes the iteration
+// fail in any case. If some are not (PrimalLowLevel::knows_best()), the cutoff is a heuristic: it
+// can also end an iteration in which a later agent would have found a path cheaper than its
+// individual path.
 //
-// *Not used: joint search* of two or three agents around the others, where planning one by one
-// gained nothing. One in five of the smaller neighbourhoods gains, but the time is better spent
-// otherwise. Medians of three seeds, 5 s on a busy machine:
+// *Not used: joint search* of two or three agents around the others, for neighbourhoods in which
+// planning one by one gained nothing. It reduces the cost in one in five of these neighbourhoods,
+// but the time is better spent otherwise. Median costs of three seeds, 5 s on a busy machine:
 //
 //   instance           agents   without    with
 //   random-32-32-20       150     3,861   3,921
@@ -39,8 +43,8 @@
 //   room-32-32-4           80     2,415   2,432
 //   empty-32-32           200     4,358   4,360
 //
-// Used only after a long time without improvement, 8 s, room, 60 agents: 1,756 and 1,759, 1,646 and
-// 1,646.
+// If joint search is used only after a long time without improvement (8 s, room, 60 agents), the
+// costs without and with it are 1,756 and 1,759, or 1,646 and 1,646.
 #include "primal/lns.h"
 
 #include <algorithm>
@@ -51,12 +55,12 @@ namespace grove::detail {
 namespace {
 
 constexpr double kRepairLabels = 2000;  // base of the label limit per repaired agent
-// Multiple of the mean number of labels of successful calls that is added.
+// Multiple of the mean number of labels of successful calls that is added to this base.
 constexpr double kRepairLabelsFactor = 16;
-constexpr double kRepairDecay = 0.98;  // decay of the statistics of repair operators per iteration
-// One iteration in this number uses a random repair operator.
+constexpr double kRepairDecay = 0.98;  // decay factor of the repair statistics per iteration
+// One iteration in 10 uses a random repair operator.
 constexpr int kRepairExplorationPeriod = 10;
-// Failed iterations per agent before worse plans are accepted.
+// Iterations without improvement, per agent, before worse plans are accepted.
 constexpr std::int64_t kRecordDeviationStart = 1;
 
 constexpr std::int64_t kMaxFirstLabels = std::int64_t{1} << 40;
@@ -92,7 +96,7 @@ LargeNeighborhoodSearch::RepairOperator& LargeNeighborhoodSearch::choose_repair(
       repairs, {}, [](const RepairOperator& repair) { return (repair.gain + 1) / repair.work; });
 }
 
-// By how much the next plan may exceed `cost`, the cost of the current plan.
+// Returns the amount by which the next plan may exceed `cost`, the cost of the current plan.
 Cost LargeNeighborhoodSearch::worse_allowed(Cost cost) {
   if (cost < best_) {
     best_ = cost;
@@ -105,8 +109,8 @@ Cost LargeNeighborhoodSearch::worse_allowed(Cost cost) {
   return std::max<Cost>(0, best_ + static_cast<Cost>(more + random_.unit()) - cost);
 }
 
-// Returns false if the agents, planned in this order, find no paths of total cost `total_cutoff` or
-// less.
+// Plans the agents in this order, with total cost at most `cutoff`. Returns false if a low-level
+// call fails; some agents then have new paths.
 bool LargeNeighborhoodSearch::replan(const std::vector<AgentIndex>& agents, Cost total_cutoff,
                                      RepairOperator& repair, const Limits& limits) {
   Cost left = total_cutoff;

@@ -14,11 +14,11 @@
 
 namespace grove::detail {
 
-// MAPF-LNS (Li et al., IJCAI 2021). Each iteration removes the paths of a few agents and plans
-// these agents again, one after the other, in random order. It keeps the new paths if their total
-// cost is not higher. After many iterations without improvement it also keeps them if the plan
-// costs little more than the best one so far (record-to-record travel: Dueck 1993). The low level
-// also chooses the order of the tasks. One thread at a time.
+// MAPF-LNS (Li et al., IJCAI 2021). Each iteration removes the paths of a few agents and re-plans
+// these agents one after the other, in random order. It keeps the new paths if their total cost is
+// not higher. After many iterations without improvement it also keeps them if the plan costs a
+// little more than the best plan so far (record-to-record travel: Dueck 1993). The low level also
+// chooses the order of each agent's tasks. One thread at a time.
 class LargeNeighborhoodSearch {
  public:
   // All references must outlive this.
@@ -30,12 +30,12 @@ class LargeNeighborhoodSearch {
         tuning_(tuning),
         neighborhoods_(problem, low_level, paths, random, tuning) {}
 
-  // One iteration. All agents must have paths. They also have paths afterwards, even if a limit is
-  // reached.
+  // Runs one iteration. All agents must have paths; they also have paths afterwards, even if a
+  // limit is reached.
   void step(const Limits& limits);
 
-  // Starts on another plan, which is in `paths`. `individual_costs`: sum of the agents' individual
-  // costs.
+  // Starts on a new plan, which must be in `paths`. `individual_costs`: sum of the agents'
+  // individual costs.
   void begin(Cost individual_costs) {
     best_ = kInfiniteCost;
     own_costs_ = individual_costs;
@@ -44,15 +44,16 @@ class LargeNeighborhoodSearch {
   std::int64_t steps() const { return steps_; }
 
  private:
-  // A way to plan one agent: exactly, greedily, or at least penalised cost (only with a dual
-  // solution). The statistics are sums that decay; choose_repair() selects by them.
+  // Repair operator: a way to re-plan one agent. It searches exactly, greedily, or for least
+  // penalised cost (only with a dual solution). choose_repair() selects by its statistics, which
+  // are decaying sums.
   struct RepairOperator {
     int inflation_percent;
     bool priced;
-    double gain = 0;                     // cost reduction
-    double work = 1;                     // work (unit: search/work.h)
-    double labels = 0;                   // labels of calls that found a path
-    double found = 0;                    // calls that found a path
+    double gain = 0;                     // total cost reduction
+    double work = 1;                     // effort (unit: search/work.h)
+    double labels = 0;                   // number of labels of calls that found a path
+    double found = 0;                    // number of calls that found a path
     std::int64_t first_labels = 20'000;  // label limit of a call until one finds a path
   };
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The destroy operators:
-// - kAgentBased: an agent whose path costs more than its individual path, drawn in proportion to
-//   the difference, and the agents that block its individual path, or that path begun a little
-//   later.
+// - kAgentBased: an agent whose path costs more than its individual path, drawn with a probability
+//   proportional to the difference, and the agents that block its individual path or that path with
+//   a delay.
 // - kRandom: random agents.
-// - kMapBased: agents that pass near one place at about one time.
+// - kMapBased: agents that pass near a random place at about the same time.
 // - kReducedCost, only with a dual solution: an agent whose penalised path cost exceeds its
-//   subproblem value, drawn in proportion to the difference, and the agents that block the path of
-//   that value. An agent that is delayed because otherwise all others would be delayed has no
-//   reduced cost.
+//   subproblem value, drawn with a probability proportional to the difference (the reduced cost),
+//   and the agents that block the path with that value. In contrast to kAgentBased, this operator
+//   does not select an agent that is delayed only because all others would be delayed otherwise:
+//   its reduced cost is 0.
 #include "primal/neighborhoods.h"
 
 #include <algorithm>
@@ -19,17 +20,17 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::int64_t kMaxNeighborhood = 8;  // agents of a neighbourhood
-// Failures per agent after which the maximum size grows by itself.
+constexpr std::int64_t kMaxNeighborhood = 8;  // agents
+// Failures per agent after which the maximum size grows by its initial value.
 constexpr std::int64_t kGrowthFailures = 2;
 constexpr std::int64_t kMaxGrowth = 4;  // maximum factor of this growth
-constexpr double kDestroyDecay = 0.99;  // decay of the weights of destroy operators per iteration
-// Probability of an operator without gain, approximately.
+constexpr double kDestroyDecay = 0.99;  // decay factor of the operators' weights per iteration
+// Approximate probability of an operator without gain.
 constexpr double kDestroyMinProbability = 0.02;
 constexpr int kAgentBasedTries = 8;  // tries to fill an agent-based neighbourhood
-constexpr Time kMapBasedWindow = 8;  // time steps before and after in a map-based neighbourhood
+constexpr Time kMapBasedWindow = 8;  // time steps before and after the chosen time
 
-// A path of the dual solution is tried with delays of 0 to kLate - 1 steps.
+// Blocking agents are sought for paths of the dual solution with delays of 0 to kLate - 1 steps.
 constexpr Time kLate = 3;
 
 }  // namespace
@@ -49,9 +50,9 @@ const std::vector<AgentIndex>& Neighborhoods::choose() {
   return chosen_;
 }
 
-// Upper limit of the size. It grows after kGrowthFailures failures per agent, because larger
-// neighbourhoods may gain where small ones no longer do (variable neighbourhood search: Mladenovic
-// and Hansen 1997).
+// Maximum size of a neighbourhood. It grows after every kGrowthFailures failures per agent, because
+// larger neighbourhoods can gain where small ones no longer do (variable neighbourhood search:
+// Mladenovic and Hansen 1997).
 std::int64_t Neighborhoods::max_size() const {
   const std::int64_t times = 1 + failures_ / (kGrowthFailures * problem_.instance.agent_count());
   return kMaxNeighborhood * std::min<std::int64_t>(times, kMaxGrowth);
@@ -109,7 +110,7 @@ AgentIndex Neighborhoods::some_delayed_agent() {
   return ReservationTable::kNoAgent;
 }
 
-// Adds the agents with which `agent` would collide on `path`, begun `late` steps late.
+// Adds the agents with which `agent` would collide on `path` with a delay of `late` steps.
 void Neighborhoods::add_blocking_agents(AgentIndex agent, const Path& path, Time late) {
   for_each_blocking_agent(problem_.instance.world(), paths_.reservations(), agent, path, late,
                           [&](AgentIndex other) {
@@ -161,8 +162,9 @@ const Path& Neighborhoods::wanted_path(AgentIndex agent) const {
   return path.empty() ? low_level_.individual_path(agent) : path;
 }
 
-// Adds the visitors of places in breadth-first order around a random position of a random agent's
-// path, about the time of that position.
+// Chooses a random time step of a random agent's path. Adds the agents that are within
+// kMapBasedWindow steps of that time on places near the agent's place, in breadth-first order of
+// places.
 void Neighborhoods::add_around_spot() {
   const World& world = problem_.instance.world();
   const Path& path = paths_.path(random_.below(problem_.instance.agent_count()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Choice of the agents that large neighbourhood search re-plans together (destroy operators).
+// Destroy operators: choose the agents that large neighbourhood search re-plans together.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@
 
 namespace grove::detail {
 
-// Chooses neighbourhoods of a few agents by several destroy operators. An operator is chosen more
-// often the more it gained recently (adaptive large neighbourhood search: Ropke and Pisinger 2006;
-// for MAPF: Li et al., IJCAI 2021). The operators are described at the head of the .cpp. One thread
-// at a time.
+// Chooses neighbourhoods of a few agents by several destroy operators. The more an operator gained
+// recently, the more often it is chosen (adaptive large neighbourhood search: Ropke and Pisinger
+// 2006; for MAPF: Li et al., IJCAI 2021). The operators are described at the head of the .cpp. One
+// thread at a time.
 class Neighborhoods {
  public:
   // All references must outlive this.
@@ -25,21 +25,22 @@ class Neighborhoods {
                 Random& random, const Tuning& tuning)
       : problem_(problem), low_level_(low_level), paths_(paths), random_(random), tuning_(tuning) {}
 
-  // The next neighbourhood, in random order. All agents must have paths. Valid until the next call.
+  // Returns the next neighbourhood, in random order; valid until the next call. All agents must
+  // have paths.
   const std::vector<AgentIndex>& choose();
-  // Reports the cost reduction by the neighbourhood chosen last; 0 if there was none.
+  // Records the cost reduction by the neighbourhood chosen last; 0 if the cost was not reduced.
   void reward(Cost gain);
 
  private:
   enum Kind : std::uint8_t { kAgentBased, kRandom, kMapBased, kReducedCost };
   static constexpr int kKinds = 4;
-  static constexpr std::int64_t kFew = 2;  // a smaller neighbourhood is filled with random agents
+  static constexpr std::int64_t kFew = 2;  // smaller neighbourhoods get random agents
 
   std::int64_t max_size() const;
   Kind choose_kind();
   void add(AgentIndex agent);
   bool full() const { return std::ssize(chosen_) >= wanted_; }
-  // Number of operators that can be used: kReducedCost needs a dual solution.
+  // Number of usable operators: without a dual solution, all except kReducedCost.
   int kinds() const { return low_level_.dual_solution() == nullptr ? kReducedCost : kKinds; }
   void add_anyone();
   void add_delayed();
@@ -63,7 +64,7 @@ class Neighborhoods {
   std::int64_t failures_ = 0;  // neighbourhoods since the last cost reduction
   std::vector<AgentIndex> chosen_;
   int seen_prices_ = 0;                      // PrimalLowLevel::price_changes() of reduced_cost_
-  std::vector<ScaledCost> reduced_cost_;     // by agent: of its path
+  std::vector<ScaledCost> reduced_cost_;     // by agent: reduced cost of its path
   std::vector<std::int64_t> seen_editions_;  // by agent: edition of the path of reduced_cost_
   std::vector<Place> queue_;
   std::vector<std::int32_t> seen_at_;  // by place: the last breadth-first search that reached it

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Priority inheritance with backtracking (PIBT: Okumura, Machida, Defago and Tamura, AIJ 2022).
 //
-// Agents choose a next state one after the other by priority. An agent prefers the state with the
-// least distance left, then a state whose place is now empty, then a random one. The agent that
-// stands on the chosen place must choose next, whatever its own priority, and must leave. If it
-// cannot, it stays, and the first agent tries its next choice. Each agent decides once, so a step
-// takes O(agents x candidates) time.
+// The agents choose their next states one after the other, by priority. An agent prefers the state
+// with the least remaining distance, ties broken in favour of a place that is empty now, then at
+// random. The agent that is on the chosen place must choose next, whatever its own priority, and
+// must leave. If it cannot, it stays, and the first agent tries its next candidate. Each agent
+// chooses once, so a joint step takes O(agents x candidates) time.
 //
-// If two agents can pass each other only at a junction behind them (swaps.cpp), the one that
-// chooses tries its candidates in reverse order, away from the other, and pulls it along.
+// If two agents can pass each other only at a junction behind one of them (swaps.cpp), that agent
+// tries its candidates in reverse order, away from the other agent, and pulls the other agent
+// along.
 //
 // LaCAM constraints are reservations made before any agent chooses.
 #include "primal/pibt_generator.h"
@@ -49,7 +50,7 @@ bool PibtGenerator::apply(std::span<const LacamConstraint> orders) {
   });
 }
 
-// Finds a next state for an agent that has none yet. Returns false if it must stay.
+// Chooses the next state of an agent that has none yet. Returns false if the agent must stay.
 bool PibtGenerator::push(AgentIndex agent) {
   const std::size_t first = candidates_.size();
   rank_candidates(agent);
@@ -59,7 +60,7 @@ bool PibtGenerator::push(AgentIndex agent) {
   return moved;
 }
 
-// Tries the candidates from `first` on.
+// Tries the agent's candidates, which start at index `first`. Returns false if none is possible.
 bool PibtGenerator::try_candidates(AgentIndex agent, std::size_t first) {
   const std::size_t end = candidates_.size();
   const AgentIndex partner = swaps_.partner(agent, candidates_[first].state, from_);
@@ -77,8 +78,8 @@ bool PibtGenerator::try_candidates(AgentIndex agent, std::size_t first) {
   return false;
 }
 
-// Moves an agent to a state that its neighbour leaves, if the agent has not decided and the place
-// is free.
+// Moves an agent to the state that its neighbour leaves, unless the agent's next state is already
+// chosen or another agent will be on that place.
 void PibtGenerator::pull(AgentIndex agent, State state) {
   if (to_[agent] == kNoState && later_[world_.place(state)] == kNoAgent) move(agent, state);
 }

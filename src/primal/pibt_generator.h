@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PIBT as configuration generator of LaCAM: one joint step of all agents.
+// PIBT as the configuration generator of LaCAM: joint steps of all agents.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace grove::detail {
 
-// LaCAM constraint: the state of an agent after the step.
+// LaCAM constraint: prescribes the state of an agent after a joint step.
 struct LacamConstraint {
   AgentIndex agent;
   State state;
@@ -23,10 +23,10 @@ class PibtGenerator {
   // `world` and `agents` must outlive this.
   PibtGenerator(const World& world, std::vector<VisitStages>& agents);
 
-  // Makes a joint step from `from` without collisions that satisfies all constraints `orders`.
-  // `priority`: the agents, highest priority first. Returns the states by agent, valid until the
-  // next call. Returns an empty span if no step was found; only if every agent has a constraint is
-  // it certain that none exists.
+  // Makes a collision-free joint step from `from` that satisfies all constraints in `orders`.
+  // `priority`: all agents, highest priority first. Returns the new states by agent, valid until
+  // the next call, or an empty span if PIBT finds no such step. This proves that no such step
+  // exists only if every agent has a constraint.
   std::span<const State> step(std::span<const AgentState> from,
                               std::span<const AgentIndex> priority,
                               std::span<const LacamConstraint> orders, SplitMix64& dice);
@@ -53,7 +53,7 @@ class PibtGenerator {
   std::vector<AgentIndex> now_;        // by place: the agent that is there
   std::vector<AgentIndex> later_;      // by place: the agent that will be there
   std::vector<State> to_;              // by agent; kNoState: not decided
-  std::vector<Candidate> candidates_;  // stack: of all agents that are choosing
+  std::vector<Candidate> candidates_;  // stack: candidates of all agents that are choosing
   Swaps swaps_;
   std::span<const AgentState> from_;
   SplitMix64* dice_ = nullptr;

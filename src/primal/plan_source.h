@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Source of a plan: the search that found it.
+// Source of a plan: the search or input that it comes from.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace grove::detail {
 
 enum class PlanSource : std::uint8_t {
   kTree,                 // a conflict-free constraint-tree node
-  kStart,                // start plan, or incumbent of a checkpoint
+  kStart,                // start plan, or incumbent from a checkpoint
   kPrioritizedPlanning,  // prioritised planning
   kLacam,                // LaCAM
   kLns,                  // large neighbourhood search

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Paths of the agents that have one, with their reservations, and the agents that block a path.
+// Paths of the agents planned so far, with their reservations; search for the agents that block a
+// path.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,8 @@
 
 namespace grove::detail {
 
-// Collision-free paths, by AgentIndex; empty for an agent without a path. One thread at a time.
+// Paths that do not collide with each other, by AgentIndex; empty for an agent without a path. One
+// thread at a time.
 class PlannedPaths {
  public:
   explicit PlannedPaths(const Instance& instance)
@@ -23,12 +25,12 @@ class PlannedPaths {
   const std::vector<Path>& paths() const { return paths_; }
   const Path& path(AgentIndex agent) const { return paths_[agent]; }
   Time cost(AgentIndex agent) const { return static_cast<Time>(paths_[agent].size()) - 1; }
-  // A number that changes whenever the agent is given a path.
+  // A number that changes whenever put() adds a path for the agent.
   std::int64_t edition(AgentIndex agent) const { return editions_[agent]; }
   // Sum of the costs of all paths.
   Cost cost() const { return cost_; }
 
-  // Adds a path. The agent must have none, and `path` must not collide with another one.
+  // Adds a path. The agent must have none, and `path` must not collide with the other paths.
   void put(AgentIndex agent, Path path) {
     GROVE_ASSERT(paths_[agent].empty() && !path.empty(), "an agent has one path at most");
     reservations_.add(agent, path);
@@ -37,7 +39,7 @@ class PlannedPaths {
     cost_ += cost(agent);
     steps_moved_ += static_cast<std::int64_t>(paths_[agent].size());
   }
-  // Removes the agent's path and returns it. The agent must have one.
+  // Removes and returns the path of `agent`, which must have one.
   Path take(AgentIndex agent) {
     GROVE_ASSERT(!paths_[agent].empty(), "a path that is taken was there");
     cost_ -= cost(agent);
@@ -51,7 +53,7 @@ class PlannedPaths {
     cost_ = 0;
   }
 
-  // Total length of all paths put or taken so far: a measure of that work.
+  // Total length of all paths put or taken so far: a measure of the effort of put() and take().
   std::int64_t steps_moved() const { return steps_moved_; }
 
  private:
@@ -63,9 +65,9 @@ class PlannedPaths {
   std::int64_t steps_moved_ = 0;
 };
 
-// Calls visit(other) for each planned agent, other than `agent`, with which `agent` would collide
-// on `path` begun `late` steps late, resting at its end included. An agent may be visited more than
-// once. Stops when visit() returns false.
+// Calls visit(other) for each planned agent other than `agent` with which `agent` would collide if
+// it followed `path` with a delay of `late` steps and then rested. Can call visit() more than once
+// for an agent. Stops when visit() returns false.
 template <class Visit>
 void for_each_blocking_agent(const World& world, const ReservationTable& reservations,
                              AgentIndex agent, const Path& path, Time late, Visit visit) {

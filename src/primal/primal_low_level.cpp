@@ -45,7 +45,8 @@ bool PrimalLowLevel::plan_individually(AgentIndex agent, const Limits& limits) {
   throw std::logic_error("internal error: an agent that can reach all its cells has no path");
 }
 
-// Follows one good sequence, for an agent with too many sequences to find the best one.
+// Individual planning along one good sequence, for an agent with too many sequences to find the
+// best one.
 bool PrimalLowLevel::follow_good_sequence(AgentIndex agent, const Limits& limits) {
   AgentStops& stops = stops_.of(agent);
   const CostMatrix& matrix = stops.cost_to_go().matrix();

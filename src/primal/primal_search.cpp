@@ -1,54 +1,57 @@
 // SPDX-License-Identifier: MIT
 // Schedule of the primal search: individual planning of every agent (its best path without the
-// others), then a first plan, then large neighbourhood search (LNS) on that plan.
+// others), then a first plan, then large neighbourhood search (LNS) from that plan.
 //
-// *Rounds.* LNS improves a plan quickly at first and then stalls in a local optimum. Other seeds
-// end in other optima. So a new round begins with prioritised planning when LNS has worked without
-// success for as long as the round took to reach its best plan, and for kStallNeighborhoods
-// iterations at least.
+// *Rounds.* LNS improves a plan quickly at first and then stalls in a local optimum; different
+// seeds end in different optima. Therefore a new round starts, with prioritised planning, when LNS
+// has spent as much effort without success as the round took to reach its best plan, and has made
+// at least kStallNeighborhoods iterations.
 //
-// *Definition.* W is the work of individual planning of all agents (meeting_work_).
+// *Definition.* W is the effort of individual planning for all agents (meeting_work_).
 //
-// *First plan.* Prioritised planning has a head start: one attempt, of at most
-// pp_head_start*W. On instances that are not dense it ends within 1.5 W, with plans much
-// cheaper than those of LaCAM (LaCAM: 1.1 to 3.5 times the sum of individual costs). After the head
-// start, prioritised planning and LaCAM share the work equally until one of them has a plan. A
-// low-level call of prioritised planning that takes long is postponed and repeated with twice the
-// label limit, because a call that proves that an agent is enclosed can take longer than the tree
-// search needs for a small instance.
+// *First plan.* Prioritised planning has a head start: until its first failure, and for an effort
+// of at most pp_head_start*W, it gets all effort. On instances that are not dense, prioritised
+// planning ends within 1.5 W, with plans much cheaper than LaCAM's, which cost 1.1 to 3.5 times the
+// sum of individual costs. After the head start, prioritised planning and LaCAM share the effort
+// equally until one of them has a plan. A long low-level call of prioritised planning is postponed
+// and repeated with twice the label limit, because a call that proves that an agent is enclosed can
+// take longer than the tree search needs for a small instance.
 //
-// *Both continue.* If LaCAM has a plan first (mostly within 2 W), LNS takes over that plan and
-// LaCAM's half of the work. Prioritised planning keeps the other half. If it finds a plan in the
-// end, that plan is mostly much cheaper. In the first round it replaces the current plan only if it
-// is cheaper. Measured on room-64-64-8, 100 agents, 300 tasks: prioritised planning 28,118 after a
-// work of 330,000; LaCAM 30,979 after 40,000, which LNS had reduced to 30,964 by then. In the first
-// round a plan adopted from another search does not end prioritised planning either. In later
-// rounds prioritised planning shares the work with the LNS of the previous round in the same way,
-// so no round waits for a plan that may never be found.
+// *Both continue.* If LaCAM finds a plan first (mostly within 2 W), LNS takes over that plan and
+// LaCAM's half of the effort. Prioritised planning keeps the other half, because its plan, if it
+// finds one, is mostly much cheaper. In the first round that plan replaces the current plan only if
+// it is cheaper. Measured on room-64-64-8, 100 agents, 300 tasks: prioritised planning found a plan
+// of cost 28,118 after an effort of 330,000 units, LaCAM one of cost 30,979 after 40,000 units,
+// which LNS had reduced to 30,964 when prioritised planning ended. In the first round a plan
+// adopted from another search does not end prioritised planning either. In later rounds prioritised
+// planning shares the effort with the LNS of the previous round in the same way, so no round waits
+// for a plan that is possibly never found.
 //
-// *Dense instances.* If LaCAM's plan costs much more than the sum of individual costs,
-// traffic-guided LaCAM (traffic_guided_lacam.cpp) continues from it, round by round, as long as it
-// finds cheaper plans. LNS follows, because it changes too few agents at a time to resolve a jam:
-// warehouse-10-20-10-2-1 with 900 agents improves from 206,729 to 115,468 in six seconds; LNS only
-// improved from 204,322 to 197,747 in four. Prioritised planning mostly fails there: once there is
-// a plan and prioritised planning has done pp_long_attempt*W, it gets 1/9 of the work
-// (kOtherWorkPerLatePlanningWork).
+// *Dense instances.* If the plan costs much more than the sum of individual costs, traffic-guided
+// LaCAM (traffic_guided_lacam.cpp) continues from it, round by round, as long as it finds cheaper
+// plans. LNS starts only afterwards, because it changes too few agents at a time to resolve a jam.
+// On warehouse-10-20-10-2-1 with 900 agents, guided LaCAM reduced the cost from 206,729 to 115,468
+// in six seconds, LNS only from 204,322 to 197,747 in four. Prioritised planning mostly fails on
+// such instances. Therefore, once there is a plan and prioritised planning has spent
+// pp_long_attempt*W, it gets only 1/9 of the effort (kOtherWorkPerLatePlanningWork).
 //
-// *Tree search.* The tree search waits for that cheaper plan, but no longer than its root takes.
-// The root examines all pairs of agents, so its work is estimated as min(pp_long_attempt,
-// W/root_work_per_individual_planning)*W.
+// *Tree search.* The tree search waits for a much cheaper plan from prioritised planning or guided
+// LaCAM (expects_plan()), but no longer than its root takes. The root examines all pairs of agents,
+// so its effort is estimated as min(pp_long_attempt, W/root_work_per_individual_planning)*W.
 //
 // *Agent order.* The first order is by individual cost, lowest first. An agent may not come to rest
 // where an agent planned earlier still passes, so low-cost agents planned late would wait for
-// high-cost ones, whereas high-cost agents find paths around resting ones. Measured on maps of
+// high-cost agents, whereas high-cost agents find paths around resting agents. Measured on maps of
 // 64x64 cells and den312d, 100 agents, 300 tasks: first plans cost 0.7 to 8 % more than the sum of
-// individual costs; in random order 8 to 14 %, highest cost first 12 to 18 %. Planning each agent
-// that must visit another agent's destination before that agent: 0.5 instead of 0.2 % (500 agents,
-// 3,000 tasks, warehouse). Later rounds sort by cost with noise (kOrderNoise).
+// individual costs; in random order 8 to 14 % more, with highest cost first 12 to 18 % more. If
+// each agent that must visit another agent's destination was planned before that agent, first plans
+// cost 0.5 instead of 0.2 % more (500 agents, 3,000 tasks, warehouse). Later rounds sort by cost
+// with noise (kOrderNoise).
 //
-// *Dual solutions* of the Lagrangian bound guide only LNS. A plan by prioritised planning with
-// penalties, or from the paths of the dual solution, is cheaper than one without (3,976 instead of
-// 4,246 for 150 agents on random-32-32-20), but LNS has found cheaper plans by then (3,830).
+// *Dual solutions* of the Lagrangian bound guide only LNS. Prioritised planning with penalties, or
+// from the paths of the dual solution, yields cheaper plans than without (3,976 instead of 4,246
+// for 150 agents on random-32-32-20), but by the time a dual solution exists LNS has found cheaper
+// ones (3,830).
 #include "primal/primal_search.h"
 
 #include <algorithm>
@@ -70,16 +73,17 @@
 namespace grove::detail {
 namespace {
 
-// LaCAM steps within which a first plan is expected.
+// Number of LaCAM steps within which a first plan is expected.
 constexpr std::int64_t kLacamExpectedSteps = 4096;
-// Rounds of guided search without a better plan before LNS takes over.
+// Rounds of traffic-guided LaCAM without a better plan after which LNS takes over.
 constexpr int kGuidedRoundsWithoutGain = 4;
-// Guided search runs while the plan costs this part more than the individual costs.
+// Traffic-guided LaCAM starts if the plan costs at least this fraction more than the sum of
+// individual costs.
 constexpr double kMinLossForGuidance = 0.1;
-// Work of the other heuristics per work of a long prioritised planning.
+// Effort of the other heuristics per unit of effort of long prioritised planning.
 constexpr std::int64_t kOtherWorkPerLatePlanningWork = 8;
 constexpr std::int64_t kStallNeighborhoods = 200;  // failed neighbourhoods before a new round
-// The same per agent; the maximum of both counts.
+// Failed neighbourhoods per agent before a new round; both numbers must be reached.
 constexpr std::int64_t kStallNeighborhoodsPerAgent = 10;
 constexpr double kOrderNoise = 0.5;  // noise on the costs by which later rounds sort agents
 
@@ -95,7 +99,8 @@ class PrimalSearch::Impl {
       : problem_(problem),
         tuning_(tuning),
         seed_(seed),
-        // LaCAM lets an agent enter a place in the step in which another agent leaves it.
+        // LaCAM requires following: it lets an agent enter a place in the step in which another
+        // leaves it.
         may_configure_(techniques.has(Technique::kLacam) && problem.instance.may_follow()),
         may_guide_(may_configure_),
         agents_(problem.instance.agent_count()),
@@ -145,8 +150,8 @@ class PrimalSearch::Impl {
   }
 
  private:
-  // Is the best plan within lagrangian_lns_max_gap of `bound`? With a larger gap, a dual solution
-  // predicts poorly which places and times are congested.
+  // True if the best plan is within lagrangian_lns_max_gap of `bound`. With a larger gap, a dual
+  // solution predicts poorly which places and times are congested.
   bool is_near(ScaledCost bound) const {
     return static_cast<double>(best_) * Penalties::kUnit <=
            (1 + tuning_.lagrangian_lns_max_gap) * static_cast<double>(bound);
@@ -156,7 +161,7 @@ class PrimalSearch::Impl {
   void advance(const Limits& limits);
   void plan_individually(const Limits& limits);
   void begin_round(bool first);
-  // Whether LaCAM or LNS can use part of the work.
+  // True if LaCAM or LNS can use part of the effort.
   bool is_raced() const { return improving_ || may_configure_; }
   bool planning_is_due() const;
   void plan(const Limits& limits);
@@ -174,25 +179,25 @@ class PrimalSearch::Impl {
   const Tuning tuning_;
   const std::uint64_t seed_;
   bool may_configure_;
-  bool may_guide_;  // LaCAM with traffic; at most once per search
+  bool may_guide_;  // traffic-guided LaCAM is possible; at most once per search
   const int agents_;
   Random random_;
   PrimalLowLevel low_level_;
   PlannedPaths paths_;    // the plan that LNS improves, or no paths
-  PlannedPaths planned_;  // of prioritised planning
+  PlannedPaths planned_;  // paths of prioritised planning
   PrioritizedPlanning planning_;
   std::unique_ptr<LacamWithRestarts> configurations_;
   std::unique_ptr<TrafficGuidedLacam> guided_;  // while it finds cheaper plans
   LargeNeighborhoodSearch neighborhoods_;
 
   AgentIndex individually_planned_ = 0;  // agents from here on have no individual path yet
-  Cost own_costs_ = 0;                   // of agents with an individual path
+  Cost own_costs_ = 0;                   // sum over the agents with an individual path
   bool own_costs_are_minimal_ = true;
   std::int64_t meeting_work_ = 0;
-  std::optional<Plan> adopted_;  // adopted before all individual paths were known
+  std::optional<Plan> adopted_;  // plan adopted before all individual paths were known
   bool improving_ = false;       // there is a plan in paths_
   Cost best_ = kInfiniteCost;
-  std::vector<Path> best_paths_;  // by agent: paths of the plan of cost best_, if found here
+  std::vector<Path> best_paths_;  // by agent: paths of the best plan, if it was found here
   std::vector<std::int64_t> best_editions_;  // by agent: edition in paths_ that best_paths_ holds
   Cost reported_cost_ = kInfiniteCost;       // cost of the best plan returned or adopted
   std::int64_t work_when_told_ = 0;
@@ -201,19 +206,19 @@ class PrimalSearch::Impl {
   std::int64_t steps_ = 0;
   std::int64_t joint_steps_ = 0;
   std::int64_t work_at_last_plan_ = 0;
-  std::int64_t rounds_without_gain_ = 0;  // of traffic-guided LaCAM, without a cheaper plan
+  std::int64_t rounds_without_gain_ = 0;  // rounds of traffic-guided LaCAM without a cheaper plan
   std::int64_t guided_work_ = 0;
   std::int64_t guided_joint_steps_ = 0;
   // State of the current round.
-  std::int64_t round_began_ = 0;  // in work
+  std::int64_t round_began_ = 0;  // value of work()
   bool first_round_ = true;
   bool planning_now_ = false;  // prioritised planning is in progress
-  std::int64_t patience_ = 0;  // label limit of a low-level call, while is_raced()
+  std::int64_t patience_ = 0;  // label limit of a low-level call while is_raced()
   std::int64_t planning_work_ = 0;
-  std::int64_t other_work_ = 0;  // work of LaCAM and LNS in this round
+  std::int64_t other_work_ = 0;  // effort of LaCAM and LNS in this round
   Cost round_best_ = kInfiniteCost;
-  std::int64_t round_improved_ = 0;       // in work
-  std::int64_t round_improved_step_ = 0;  // in neighbourhoods
+  std::int64_t round_improved_ = 0;       // value of work()
+  std::int64_t round_improved_step_ = 0;  // LNS iteration
 };
 
 std::optional<Plan> PrimalSearch::Impl::step(const Limits& limits) {
@@ -246,8 +251,8 @@ void PrimalSearch::Impl::keep_best() {
   }
 }
 
-// Making and checking a plan from its paths takes about one third of the plan's cost, in units of
-// work. So when many agents improve by small steps, only some of the plans are returned.
+// Making and checking a plan from its paths takes an effort of about one third of the plan's cost.
+// Therefore, when LNS improves a plan in many small steps, only some of the plans are returned.
 bool PrimalSearch::Impl::may_report(const Limits& limits) const {
   return source_ != PlanSource::kLns || optimal() || limits.stop_requested() ||
          work() - work_when_told_ >= tuning_.lns_report_work * best_;
@@ -321,7 +326,7 @@ void PrimalSearch::Impl::take_over_planned() {
   planning_now_ = false;
   configurations_.reset();
   if (first_round_ && improving_ && planned_.cost() >= paths_.cost()) return planned_.clear();
-  guided_.reset();  // prioritised planning mostly finds cheaper plans
+  guided_.reset();  // plans of prioritised planning are mostly cheaper
   paths_.clear();
   for (AgentIndex agent = 0; agent < agents_; ++agent) paths_.put(agent, planned_.take(agent));
   source_of_paths_ = PlanSource::kPrioritizedPlanning;
@@ -340,7 +345,7 @@ void PrimalSearch::Impl::configure(const Limits& limits) {
   if (outcome == Outcome::kFound) {
     put_all(*configurations_->plan(), PlanSource::kLacam);
   }
-  // Where memory is short it is left to others.
+  // If memory is short, it is left to the rest of the run.
   const bool lost =
       outcome == Outcome::kExhausted || (outcome == Outcome::kStopped && !limits.stop_requested());
   if (lost) may_configure_ = false;
@@ -372,7 +377,7 @@ void PrimalSearch::Impl::guide(const Limits& limits) {
     }
     guided_->learn(plan);
   }
-  // Where memory is short it is left to others.
+  // If memory is short, it is left to the rest of the run.
   if (outcome == Outcome::kStopped || rounds_without_gain_ >= kGuidedRoundsWithoutGain)
     guided_.reset();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The primal search: heuristics that find valid plans of decreasing cost and prove nothing.
+// The primal search: heuristics that find valid plans of decreasing cost. They prove no bounds.
 #pragma once
 
 #include <cstdint>
@@ -17,59 +17,59 @@
 
 namespace grove::detail {
 
-// Finds a first plan by prioritised planning, interleaved with LaCAM where that takes long (only
-// with Technique::kLacam). Then it improves the plan by large neighbourhood search, and
-// restarts with another agent order when that stalls. The schedule is at the head of
-// primal_search.cpp. Works in small steps, so that one thread can do other work in between.
-// Deterministic: the same seed, steps, adopted plans and dual solutions make the same plans, limits
-// excepted. One thread at a time.
+// Finds a first plan by prioritised planning, interleaved with LaCAM if planning takes long (only
+// with Technique::kLacam). Improves the plan by large neighbourhood search, and starts again with a
+// different agent order when that stalls. The schedule is at the head of primal_search.cpp. Works
+// in small steps, so that its thread can do other work in between. Deterministic: the same seed,
+// steps, adopted plans and dual solutions yield the same plans, unless a limit is reached. One
+// thread at a time.
 class PrimalSearch {
  public:
   struct Counts {
     std::int64_t steps = 0;
-    std::int64_t attempts = 0;       // of prioritised planning, including failed ones
-    std::int64_t joint_steps = 0;    // of LaCAM
+    std::int64_t attempts = 0;       // orders started by prioritised planning
+    std::int64_t joint_steps = 0;    // joint steps of LaCAM
     std::int64_t neighborhoods = 0;  // LNS iterations
     std::int64_t low_level_calls = 0;
     std::int64_t low_level_expanded = 0;
   };
 
-  // All references must outlive this. `stops` may be shared with other searches of the same thread.
+  // All references must outlive this. `stops` can be shared with other searches on the same thread.
   PrimalSearch(const Problem& problem, AgentStopsCache& stops, std::uint64_t seed,
                Techniques techniques = Techniques::defaults(), const Tuning& tuning = {});
   ~PrimalSearch();
 
   // Continues for about a millisecond, or for one low-level call if that takes longer. Returns a
-  // plan if it is cheaper than all plans returned or adopted before; source() then specifies how it
-  // was found. When large neighbourhood search improves a large plan in many small steps, only some
-  // of the better plans are returned.
+  // plan that is cheaper than all plans returned or adopted before, or nullopt; source() then says
+  // how the plan was found. When large neighbourhood search improves a large plan in many small
+  // steps, only some of the better plans are returned.
   std::optional<Plan> step(const Limits& limits);
   PlanSource source() const;
 
-  // Searches from now on for plans cheaper than `plan`, which must be valid, and begins in its
-  // neighbourhood. Ignored unless `plan` is cheaper than all plans before.
+  // Makes the search continue from `plan`, which must be valid, for cheaper plans. Ignored unless
+  // `plan` is cheaper than all plans returned or adopted before.
   void adopt(const Plan& plan);
 
-  // Sets the dual solution that guides large neighbourhood search. Ignored if it is null, if it is
-  // the current one, or if the best plan costs more than 1 + lagrangian_lns_max_gap times its
-  // bound.
+  // Sets the dual solution that guides large neighbourhood search. Ignored if it is nullptr or the
+  // current one, or if the best plan costs more than (1 + lagrangian_lns_max_gap) times its bound.
   void use(std::shared_ptr<const DualSolution> dual_solution);
 
-  // Cost of the cheapest plan that was returned or adopted or is about to be returned. Returns
-  // nullopt if there is none.
+  // Cost of the cheapest plan that was returned, adopted, or found and not yet returned. Returns
+  // nullopt if there is no plan yet.
   std::optional<Cost> best_cost() const;
-  // Whether a plan is likely soon. Without a plan: LaCAM has not failed and has made fewer than
-  // kLacamExpectedSteps steps. With a plan, a much cheaper one is expected while prioritised
-  // planning of the first round, or traffic-guided LaCAM, has done less work than the root of the
-  // tree takes (estimate: head of primal_search.cpp). Always false without LaCAM.
+  // True if a plan, or a much cheaper plan, is likely to be found soon. Without a plan this is so
+  // while LaCAM has not failed and has made fewer than kLacamExpectedSteps steps. With a plan it is
+  // so while prioritised planning of the first round, or traffic-guided LaCAM, has spent less
+  // effort than the root of the tree takes (estimate: head of primal_search.cpp). Always false
+  // without LaCAM.
   bool expects_plan() const;
-  // Whether every agent has a path that is optimal without the other agents, so that the plan is
-  // optimal.
+  // True if the best plan is proven to be optimal, because each agent's path costs as little as the
+  // agent's optimal path without the other agents.
   bool optimal() const;
 
-  // Work done so far (unit: search/work.h).
+  // Effort spent so far (unit: search/work.h).
   std::int64_t work() const;
-  // Value of work() when the last better plan was found.
+  // Value of work() at which the last better plan was found.
   std::int64_t work_at_last_plan() const;
   Counts counts() const;
 

@@ -1,31 +1,32 @@
 // SPDX-License-Identifier: MIT
 // Prioritised planning (Erdmann and Lozano-Perez 1987; Silver 2005). Paths of agents planned
-// earlier are obstacles, including their rest at the end, and an agent may not come to rest where
-// one of these still passes. So an agent fails if the obstacles enclose it, mostly because of a few
-// agents that were planned too late.
+// earlier are obstacles, including the rest at their ends, and an agent must not come to rest where
+// one of these paths still passes. Planning fails for an agent if the obstacles enclose it, mostly
+// because a few agents were planned too late.
 //
-// *Order after a failure.* The agent that fails is moved to the front, and planning restarts
-// (Bennewitz et al. 2002 do so with random exchanges; measured, moving to the front succeeds on far
-// denser instances than random orders). Two agents that enclose each other would alternate for
-// ever, so after as many failures as there are agents the order is shuffled.
+// *Order after a failure.* The agent that failed is moved to the front of the order, and planning
+// restarts. (Bennewitz et al. 2002 exchange random agents instead. In measurements, moving to the
+// front succeeded on far denser instances than random orders.) Two agents that enclose each other
+// would alternate for ever, so the order is shuffled whenever the number of failures is a multiple
+// of the number of agents.
 //
-// *Partial re-planning.* If the current order took many labels (pp_resume_labels), a first
-// failure of an agent does not restart it. Only the agents that block its individual path are
-// planned again, after it. If the agent fails again, planning restarts. The plans cost a little
-// more: on room-64-64-8, 100 agents, 300 tasks, scenarios 2, 3 and 5, 0.4 to 3 %, and they are
-// found no sooner there.
+// *Partial re-planning.* If the current order has taken many labels (pp_resume_labels), planning
+// does not restart at the first failure of an agent. Only the agents that block its individual path
+// are re-planned, after it. At the agent's next failure planning restarts. The resulting plans cost
+// a little more: on room-64-64-8, 100 agents, 300 tasks, scenarios 2, 3 and 5, they cost 0.4 to 3 %
+// more, and they are not found sooner there.
 //
-// *Label limit.* A proof that an agent is enclosed can take a hundred times the labels of any path
-// found. So a call fails after many times the maximum labels of a call with a path. The limit
-// doubles whenever there have been as many failures as agents, so that an agent that is hard to
-// plan is not taken for one that cannot be planned.
+// *Label limit.* A proof that an agent is enclosed can take a hundred times the labels of any
+// successful call. Therefore a call fails after many times the maximum number of labels of a
+// successful call. The limit doubles after every n failures, where n is the number of agents, so
+// that an agent that is only hard to plan is planned eventually.
 //
-// *Greedy search.* The heuristic ignores the agents planned before. With a long distance and many
-// such agents, many labels have f below the cost of the best path: on a map of 256x256 cells with
-// 1,000 agents, the last agents took a million labels each, all before them a thousand or two. So
-// the exact search has a lower label limit; after it, a greedy search (kGreedPercent) looks for any
-// path. Mostly it is needed for an agent whose destination others pass long after the agent's
-// individual cost.
+// *Greedy search.* The low level's heuristic ignores the agents planned before. If there are many
+// of them and the distance is long, many labels have f below the cost of the best path: on a map of
+// 256x256 cells with 1,000 agents, the last agents took a million labels each, all earlier ones a
+// thousand or two. Therefore exact search has a lower label limit. If it is reached, a greedy
+// search (kGreedPercent) looks for any path. It is mostly needed for an agent whose destination
+// others pass long after the agent's individual cost.
 #include "primal/prioritized_planning.h"
 
 #include <algorithm>
@@ -37,7 +38,7 @@ namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kPlanningLabels = 200'000;  // base of the label limit per call
-// Multiple of the maximum number of labels of successful calls that is added.
+// Multiple of the maximum number of labels of successful calls that is added to this base.
 constexpr std::int64_t kPlanningLabelsFactor = 8;
 
 constexpr int kGreedPercent = 30;
@@ -105,8 +106,8 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
   return Outcome::kWorking;
 }
 
-// Removes the paths of the agents that block the agent's individual path, and moves these agents
-// behind it in the order.
+// Removes the paths of the agents that block the individual path of `agent`, and moves these agents
+// behind `agent` in the order.
 void PrioritizedPlanning::remove_blocking_agents(AgentIndex agent) {
   has_failed_[agent] = true;
   std::vector<bool> gone(order_.size(), false);

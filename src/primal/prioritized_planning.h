@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prioritised planning: finds a first plan, one agent after the other.
+// Prioritised planning: finds a first plan by planning one agent after the other.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,15 @@
 
 namespace grove::detail {
 
-// Plans the agents in an order, each around the agents before it. Restarts with another order when
-// an agent finds no path. How the order is chosen is at the head of the .cpp. One thread at a time.
+// Plans the agents in an order, each around the agents planned before it. Restarts with a different
+// order when it finds no path for an agent. The head of the .cpp describes the choice of the order.
+// One thread at a time.
 class PrioritizedPlanning {
  public:
   enum class Outcome : std::uint8_t {
     kWorking,
     kDone,     // all agents have a path
-    kPutOff,   // the call reached `patience`
+    kPutOff,   // a low-level call reached `patience` and is postponed
     kStopped,  // a limit was reached; step() may be called again
   };
 
@@ -29,17 +30,17 @@ class PrioritizedPlanning {
                       Random& random, const Tuning& tuning)
       : world_(world), low_level_(low_level), paths_(paths), random_(random), tuning_(tuning) {}
 
-  // Removes all paths and starts with `order`. All agents must have individual paths
-  // (PrimalLowLevel::plan_individually()).
+  // Removes all paths and starts with the agent order `order`. All agents must have individual
+  // paths (PrimalLowLevel::plan_individually()).
   void begin(std::vector<AgentIndex> order);
-  // Plans one agent. A low-level call of more than `patience` labels is postponed to the next step,
-  // where it starts again. Must not be called after kDone.
+  // Plans one agent. A low-level call that exceeds `patience` labels is postponed: the next step
+  // repeats it from the start. Must not be called after kDone.
   Outcome step(const Limits& limits,
                std::int64_t patience = std::numeric_limits<std::int64_t>::max());
 
-  // Orders started so far.
+  // Number of orders started so far.
   std::int64_t attempts() const { return attempts_; }
-  // Failures to find a path since begin().
+  // Number of failures to find a path since begin().
   std::int64_t failures() const { return failures_; }
 
  private:
@@ -56,7 +57,7 @@ class PrioritizedPlanning {
   Random& random_;
   const Tuning& tuning_;
   std::vector<AgentIndex> order_;
-  std::size_t next_ = 0;  // in order_
+  std::size_t next_ = 0;  // position in order_ of the next agent to plan
   std::int64_t attempts_ = 0;
   bool greedily_ = false;             // the next call searches greedily
   std::int64_t labels_of_order_ = 0;  // labels since this order was started

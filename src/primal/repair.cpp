@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Repair by a queue of agents without a path. The first agent in the queue gets the best path
-// around the agents that have one. If there is no path, or none is found within the label limit,
-// the agents that block its individual path lose theirs and are appended to the queue. Two agents
-// that enclose each other would alternate for ever. So after many failures an agent also removes
-// those with which it would collide if it were late, and the number of failures is limited.
+// around the agents that have one. If no path exists, or none is found within the label limit, the
+// paths of the agents that block its individual path are removed, and these agents are appended to
+// the queue. Two agents that enclose each other could alternate for ever. Therefore, after many
+// failures, the agents that block the individual path with a delay are removed, too, and the number
+// of failures is limited.
 #include "primal/repair.h"
 
 #include <algorithm>
@@ -17,8 +18,8 @@ namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kFailuresPerAgent = 4;
-constexpr std::int64_t kLabels = 10'000;   // label limit of a call: this many,
-constexpr std::int64_t kLabelsOfOwn = 50;  // and this many per step of the individual path
+constexpr std::int64_t kLabels = 10'000;   // label limit of a call: this number,
+constexpr std::int64_t kLabelsOfOwn = 50;  // plus this number per step of the individual path
 constexpr int kLatest = 8;  // maximum delay, in steps, in the search for blocking agents
 
 class Repair {
@@ -74,7 +75,7 @@ class Repair {
     };
     for_each_blocking_agent(world, paths_.reservations(), agent, low_level_.individual_path(agent),
                             0, note);
-    // After many failures, removing these agents is not sufficient.
+    // After many failures, removing only these agents is not sufficient.
     if (failures > agents_ / 2 || gone.empty())
       for_each_blocking_agent(world, paths_.reservations(), agent,
                               low_level_.individual_path(agent),

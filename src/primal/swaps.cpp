@@ -1,29 +1,31 @@
 // SPDX-License-Identifier: MIT
 // *Problem.* In a corridor, priority inheritance only pushes the agent of lower priority ahead, at
-// worst into a dead end, although it heads the other way. The remedy is the swap of LaCAM*
-// (Okumura, IJCAI 2023), after Push and Swap (Luna and Bekris, IJCAI 2011): the agent of higher
-// priority backs off to the next junction and pulls the other along; there one of them can step
-// aside. Two walks along cells with one way on decide whether to swap.
+// worst into a dead end, although it heads the other way. The remedy is the swap operation of
+// LaCAM* (Okumura, IJCAI 2023), after Push and Swap (Luna and Bekris, IJCAI 2011): the agent of
+// higher priority moves back to the next junction and pulls the other agent along; at the junction
+// one of them can step aside. Two walks along the corridor decide whether to swap. A walk continues
+// as long as there is exactly one way on.
 //
-// *Is a swap needed?* The pusher pushes the other agent ahead as long as that brings the pusher
-// nearer to its next stop.
-// - At a junction the other can step aside: no swap.
-// - If the pusher may rest where the walk ends, and the other heads for where the pusher comes
-//   from, they must pass.
-// - If the corridor ends and the pusher still heads there (an agent may have its stops where
-//   another one rests), the other must come out first.
+// *Is a swap needed?* The first walk follows the pusher, which pushes the other agent ahead, as
+// long as that brings the pusher nearer to its next stop.
+// - If the walk reaches a junction, the other agent can step aside there, so no swap is needed.
+// - If the pusher may rest where the walk ends, and the other agent heads for the side from which
+//   the pusher comes, they must pass each other (kToPass).
+// - If the corridor ends and the pusher still heads there (an agent can have a stop where another
+//   agent rests), the other agent must come out first (kToGetAtEnd).
 //
-// *Is a swap possible?* Yes if the two, pulled backwards, reach a junction before they return to
-// their starting cell. In both walks a dead end of one cell where an agent rests does not count as
-// a way on.
+// *Is a swap possible?* The second walk leads backwards. A swap is possible if the walk reaches a
+// junction before it returns to its first cell. In both walks a dead end of one cell where an agent
+// rests does not count as a way on.
 //
-// *When an agent backs off.* For an agent ahead of it that has not chosen yet, so has lower
-// priority; for an agent behind it that must pass; and for an agent behind it that heads for the
-// end of the corridor, only if that agent has chosen, so has higher priority. Otherwise two agents
-// that both head there would let each other pass for ever.
+// *When an agent backs off.* It backs off for an agent ahead of it that has not chosen yet and so
+// has lower priority; for an agent behind it, if they must pass each other; and for an agent behind
+// it that heads for the end of the corridor, but only if that agent has already chosen and so has
+// higher priority. Without this last condition two agents that both head for the end would let each
+// other pass for ever.
 //
-// *Condition.* Every step can be undone, and a state is its place: only in plain worlds
-// (World::is_plain()).
+// *Condition.* Swaps are made only in plain worlds (World::is_plain()), in which every step can be
+// undone and each place has one state.
 #include "primal/swaps.h"
 
 namespace grove::detail {
@@ -75,14 +77,14 @@ bool Swaps::is_possible(Pair pair, std::span<const AgentState> from) const {
   return false;
 }
 
-// Is this a dead end of one cell where an agent rests?
+// True if `cell` is a dead end of one cell where an agent may rest and is.
 bool Swaps::is_plugged(State cell, std::span<const AgentState> from) const {
   const AgentIndex there = now_[cell];
   return world_.neighbors(cell).size() == 1 && there != kNoAgent &&
          agents_[there].may_rest(from[there].stage, cell);
 }
 
-// The number of ways on from the front; `way` becomes one of them.
+// Returns the number of ways on from pair.front, and sets `way` to one of them.
 int Swaps::ways_on(Pair pair, std::span<const AgentState> from, State& way) const {
   int ways = 0;
   for (State cell : world_.neighbors(pair.front)) {

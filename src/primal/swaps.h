@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Swaps: two agents that must exchange places in a corridor.
+// Swaps: detects two agents that must pass each other in a corridor.
 #pragma once
 
 #include <span>
@@ -9,31 +9,32 @@
 
 namespace grove::detail {
 
-// Finds pairs of neighbouring agents that must swap, and where they can. A view of one
+// Finds pairs of neighbouring agents that must swap, and tests whether they can. A view of one
 // configuration. One thread at a time.
 class Swaps {
  public:
   static constexpr AgentIndex kNoAgent = -1;
 
-  // All references must outlive this. `now`: by place, the agent that is there. `to`: by agent, the
-  // next state, or kNoState while it is not decided.
+  // All references must outlive this. `now`: by place, the agent there, or kNoAgent. `to`: by
+  // agent, the next state, or kNoState if it is not decided yet.
   Swaps(const World& world, const std::vector<VisitStages>& agents,
         const std::vector<AgentIndex>& now, const std::vector<State>& to)
       : world_(world), agents_(agents), now_(now), to_(to) {}
 
-  // The agent that `agent`, which prefers to move to `wish`, should pull along backwards instead,
-  // so that the two can swap at a junction behind `agent`. Returns kNoAgent if there is none. A
-  // partner whose next state is decided cannot be pulled; then `agent` only backs off.
+  // `agent` prefers to move to `wish`. Returns the agent that it should instead pull backwards, so
+  // that the two can swap at a junction behind `agent`; or kNoAgent if no swap is needed or
+  // possible. If the next state of the returned agent is already decided, that agent cannot be
+  // pulled, and `agent` only backs off.
   AgentIndex partner(AgentIndex agent, State wish, std::span<const AgentState> from) const;
 
  private:
   enum class Need : std::uint8_t {
     kNone,
-    kToPass,     // each heads for where the other comes from
-    kToGetAtEnd  // one heads further on, the other is at a dead end
+    kToPass,     // each agent heads for the side from which the other comes
+    kToGetAtEnd  // one agent heads on to a dead end in which the other is
   };
 
-  // An agent on `back` faces an agent on `front`.
+  // Places of two agents: the one on `back` pushes the one on `front`.
   struct Pair {
     State back;
     State front;

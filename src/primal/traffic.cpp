@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Agents that all take a shortest path jam where the paths meet, and a jam costs more than a
-// detour. The traffic of a plan, waits included, shows where: the next plan
-// (traffic_guided_lacam.cpp) uses distances in which traffic costs more. Source: Chen, Harabor, Li
-// and Stuckey, AAAI 2024, who count paths that are planned beforehand. Measured, a plan's own
-// traffic does as well, and it includes waits. Moves against a stream cost more than moves along
-// it, so opposite streams separate.
+// If all agents take shortest paths, they jam where the paths meet, and a jam costs more than a
+// detour. The traffic of a plan, waits included, shows where jams are. The next plan
+// (traffic_guided_lacam.cpp) uses distances in which steps through traffic cost more. Source: Chen,
+// Harabor, Li and Stuckey, AAAI 2024, who count the traffic of paths that are planned beforehand.
+// In measurements the traffic of earlier plans, which includes waits, was as good. Moves against a
+// stream cost more than moves along it, so that opposite streams separate.
 #include "primal/traffic.h"
 
 #include <algorithm>
@@ -54,7 +54,8 @@ void Traffic::update_edge_costs() {
     }
 }
 
-// Calls visit(before, cost) for each state from which a move leads to `state`.
+// Calls visit(before, cost) for each state `before` from which a move, of this cost, leads to
+// `state`.
 template <class Visit>
 void Traffic::visit_before(State state, Visit visit) const {
   const auto states = world_.moves_to(state);
@@ -69,7 +70,7 @@ void Traffic::visit_before(State state, Visit visit) const {
   }
 }
 
-// Dijkstra's algorithm with one bucket per cost modulo kBuckets.
+// Dijkstra's algorithm with a circular bucket queue: one bucket for each cost modulo kBuckets.
 DistanceField Traffic::field(DistanceView distance) {
   DistanceField congestion_cost(static_cast<std::size_t>(world_.state_count()), kNever);
   std::size_t left = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Traffic of plans, and distances that include its congestion costs.
+// Traffic of plans, and distances that include congestion costs.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +13,24 @@
 
 namespace grove::detail {
 
-// Counts the visits of places and the moves between them, at any time, and computes distances in
-// which a step costs more the more traffic it meets, on the place or in the opposite direction. One
+// Counts how much plans use each place and each move, over all times, and computes distances in
+// which a step costs more, the more traffic is on its place or in the opposite direction. One
 // thread at a time.
 class Traffic {
  public:
-  // `world` and `tuning` must outlive this. `usual`: the amount of traffic that raises the cost
-  // of a step by vertex_congestion_weight (traffic on the place) or contraflow_weight (in the
+  // `world` and `tuning` must outlive this. `usual`: amount of traffic that raises the cost of a
+  // step by vertex_congestion_weight (traffic on the place) or contraflow_weight (traffic in the
   // opposite direction) times its cost without traffic.
   Traffic(const World& world, double usual, const Tuning& tuning);
 
-  // Multiplies all counts by `left`.
+  // Multiplies all counts by `left`, from 0 to 1.
   void fade(double left);
   void add(const Path& path, double weight);
-  // Computes the costs that field() uses from the current counts.
+  // Computes, from the current counts, the costs that field() uses.
   void update_edge_costs();
 
-  // The least cost, congestion included, in units of 1 / kStep step, from every state to a state
-  // that is 0 in `distance`; kNever if there is no path. O(states).
+  // Returns the least cost from each state to a state with distance 0 in `distance`, congestion
+  // included, in units of 1 / kStep step; kNever if there is no path. O(states).
   DistanceField field(DistanceView distance);
 
  private:
@@ -48,7 +48,7 @@ class Traffic {
   const double usual_;
   const Tuning& tuning_;
   std::vector<Move> first_;      // by place
-  std::vector<double> there_;    // by place: steps that end there
+  std::vector<double> there_;    // by place: steps that end there (traffic)
   std::vector<double> moving_;   // by move
   std::vector<Time> edge_cost_;  // by move: cost of the reverse move
   std::vector<std::vector<State>> buckets_;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The first plan's traffic is that of agents that ignore each other, and the second plan avoids all
-// of it at once. So the traffic used is a mean over plans: the first traffic_plans plans have equal
-// weight, and each later one has the weight 1 / traffic_plans. Otherwise successive plans
-// oscillate.
+// If the guide used only the traffic of the last plan, all agents would avoid the same places at
+// once, and successive plans would oscillate. Therefore it uses a mean over plans: the first
+// traffic_plans plans have equal weights, and each later plan has the weight 1 / traffic_plans.
 //
 // *Measured* on one core, scenario 1 of Moving AI maps: cost of LaCAM's first plan, best cost after
-// ten rounds, and the time of these rounds. (lacam3 in 10 s on the first three: 124,057, 87,887,
-// 203,246.)
+// ten rounds, and duration of these rounds. (Costs of lacam3 after 10 s on the first three
+// instances: 124,057, 87,887, 203,246.)
 //
 //                                         first    guided    time
 //   warehouse-10-20-10-2-1, 900 agents  206,729   114,663   2.6 s
@@ -15,8 +14,8 @@
 //   random-32-32-20, 400                 27,806    20,123   0.3 s
 //   room-64-64-8, 600                   114,028    88,729   1.2 s
 //
-// *No better*: traffic of paths planned beforehand; the best of ten candidates for each joint step
-// (as in lacam3).
+// *No better in measurements*: traffic of paths planned beforehand; the best of ten candidates for
+// each joint step (as in lacam3).
 #include "primal/traffic_guided_lacam.h"
 
 #include <algorithm>

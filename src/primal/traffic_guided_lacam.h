@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Traffic-guided LaCAM: improves a plan by LaCAM with distances that avoid the plan's congestion.
+// Traffic-guided LaCAM: finds a better plan by LaCAM with distances that avoid the congestion of
+// earlier plans.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +19,9 @@
 
 namespace grove::detail {
 
-// Works in rounds: the traffic of the plans so far gives distances, and LaCAM guided by these makes
-// the next plan. Slices may have any length. Deterministic: the same calls make the same plans,
-// limits excepted. One thread at a time.
+// Works in rounds. In each round LaCAM makes a plan, guided by distances that include the traffic
+// of the plans learnt so far. Slices can have any length. Deterministic: the same calls yield the
+// same plans, unless a limit is reached. One thread at a time.
 class TrafficGuidedLacam {
  public:
   enum class Outcome : std::uint8_t {
@@ -30,18 +31,19 @@ class TrafficGuidedLacam {
     kStopped,  // a limit was reached, or so little memory is left that continuing would reach one
   };
 
-  // `orders` as for LacamWithRestarts. `problem` and `tuning` must outlive this. `mean_cost`: mean
-  // individual cost of an agent.
+  // `orders` and `seed` are as for LacamWithRestarts. `mean_cost`: mean individual cost of the
+  // agents. `problem` and `tuning` must outlive this.
   TrafficGuidedLacam(const Problem& problem, std::vector<Sequence> orders, double mean_cost,
                      std::uint64_t seed, const Tuning& tuning);
 
-  // Adds the traffic of a plan and begins a round.
+  // Adds the traffic of `plan` and starts a round.
   void learn(const Plan& plan);
-  // Continues the round; call learn() first. After kFailed it begins another round.
+  // Continues the round for at most `slice` joint steps. learn() must have been called. After
+  // kFailed, starts another round.
   Outcome run(const Limits& limits, std::int64_t slice);
 
   const Plan& plan() const { return plan_; }
-  // As PrimalSearch::work().
+  // Effort spent so far; see PrimalSearch::work().
   std::int64_t work() const { return work_; }
   std::int64_t joint_steps() const { return joint_steps_; }
 
@@ -55,8 +57,8 @@ class TrafficGuidedLacam {
   std::vector<Sequence> orders_;
   SplitMix64 dice_;  // generates the seeds
   Traffic traffic_;
-  std::int64_t learnt_ = 0;                       // plans learnt
-  std::map<DistanceView, DistanceField> fields_;  // by the distances in steps that they replace
+  std::int64_t learnt_ = 0;                       // number of plans learnt
+  std::map<DistanceView, DistanceField> fields_;  // by the field in steps that it replaces
   std::map<DistanceView, DistanceField>::iterator next_field_;
   std::unique_ptr<Lacam> lacam_;
   std::int64_t steps_left_ = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Agents without a destination must not all head for the same last stop, nor for another agent's
+// Agents without a destination should head for distinct last stops that are no other agent's
 // destination. Their last stops are a matching of agents and cells, found by augmenting paths
-// (Kuhn's algorithm) that try the last stop of the cheapest sequence first.
+// (Kuhn's algorithm). Each agent tries the last stop of its cheapest sequence first.
 #include "primal/visit_orders.h"
 
 #include <algorithm>

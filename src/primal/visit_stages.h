@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Visit stages: an agent that heads for its stops in a given order and also counts stops met
-// earlier.
+// Visit stages: progress of an agent that heads for its stops in a given order, but has also
+// visited the stops that it passes earlier.
 #pragma once
 
 #include <algorithm>
@@ -14,26 +14,26 @@
 
 namespace grove::detail {
 
-// Distance fields that guide agents in place of distances in steps.
+// Distance fields that guide agents instead of distances in steps.
 struct LegFields {
   std::vector<DistanceView> to_task;  // by TaskIndex
-  std::vector<DistanceView> to_rest;  // by AgentIndex, as DistanceFields::to_rest
+  std::vector<DistanceView> to_rest;  // by AgentIndex; see DistanceFields::to_rest
 };
 
-// The sets of stops left of one agent, as numbered stages that are created when first met. One
-// thread at a time.
+// Numbers the sets of remaining stops of one agent as stages, which are created when first reached.
+// One thread at a time.
 class VisitStages {
  public:
   using Stage = std::int32_t;
 
-  // `problem` and the fields of `guide` must outlive this. `guide` == nullptr: distances in steps.
+  // `problem` and the fields of `guide` must outlive this. `guide`: nullptr for distances in steps.
   // Throws std::invalid_argument if `order` is not a complete sequence.
   VisitStages(const Problem& problem, AgentIndex agent, Sequence order,
               const LegFields* guide = nullptr);
 
-  // The first stage: all stops are left except one at the start.
+  // The stage of the agent at its start: all stops are left, except a stop at the start.
   Stage first() { return after(all_, start_); }
-  // The stage of an agent of `stage` once it is in `state`.
+  // The stage that follows `stage` when the agent enters `state`.
   Stage after(Stage stage, State state) {
     const Place place = instance_.world().place(state);
     for (std::size_t stop = 0; stop < places_.size(); ++stop)
@@ -41,8 +41,8 @@ class VisitStages {
         return after_stop(stage, static_cast<int>(stop));
     return stage;
   }
-  // May an agent of this stage enter the state? It may not work on a task that it has completed or
-  // that is not its own.
+  // True if an agent in `stage` may enter `state`. It must not execute a task that it has completed
+  // or that is not its own.
   bool may_enter(Stage stage, State state) const {
     const World& world = instance_.world();
     if (!world.is_working(state)) return true;
@@ -50,17 +50,17 @@ class VisitStages {
     return stop < std::ssize(stops()) && (entries_[stage].left >> stop & 1) != 0;
   }
 
-  // Distance from `state` through all stops left, in order, to the place of rest, by the guide or
-  // in steps; kNever or more if there is no path.
+  // Distance from `state` through all remaining stops, in order, to the place of rest, in units of
+  // the guide or in steps; at least kNever if there is no path.
   Time distance(Stage stage, State state) const {
     const Entry& entry = entries_[stage];
     return entry.to_next[state] + entry.onward;
   }
 
-  // Replaces the guide by distances in steps.
+  // Uses distances in steps from now on, instead of the guide.
   void go_by_steps();
 
-  // May an agent of this stage rest in `state`?
+  // True if an agent in `stage` may rest in `state`.
   bool may_rest(Stage stage, State state) const {
     return entries_[stage].left == 0 && instance_.may_rest(agent_, state);
   }
@@ -73,8 +73,8 @@ class VisitStages {
   };
   struct Entry {
     StopSet left;
-    DistanceView to_next;  // to the first stop left, or to the place of rest
-    Time onward;           // from there through all others; less than kNever
+    DistanceView to_next;  // to the first remaining stop or, without one, to the place of rest
+    Time onward;           // from there through the other stops to rest; less than kNever
   };
 
   Stage after_stop(Stage stage, int stop) {
@@ -94,7 +94,7 @@ class VisitStages {
   std::vector<Place> places_;  // by stop
   Sequence order_;
   Targets steps_;
-  Targets guide_targets_;  // by the guide, or as steps_
+  Targets guide_targets_;  // fields of the guide, or a copy of steps_
   Stage all_;
   std::vector<Entry> entries_;
   StopSetIndex index_;

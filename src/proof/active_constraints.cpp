@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Counts of active constraints. A side "A rest P T" implies "B bar P T inf" for each other agent B.
-// These are not counted one by one, but by two counts per (P, T): `others`, the number of active
-// sides "rest P T" of any agent, and `own`, the number of those of one agent. "B bar P T inf" is
-// implied if `others` exceeds the `own` of B. (So it is also implied for agents outside the proof.
-// That is harmless: no lemma that the proof may name has a constraint on them.)
+// Counts active constraints. A side "A rest P T" implies "B bar P T inf" for each other agent B.
+// The implied constraints have no counts of their own. Instead, each (P, T) has a count `others`,
+// the number of active sides "rest P T" over all agents, and each agent has a count `own`, the
+// number of those on this agent. "B bar P T inf" is implied if `others` exceeds the `own` of B.
+// (This also reports the constraint for agents outside the proof, which is harmless, because no
+// lemma that the proof may name has a constraint on such an agent.)
 #include "proof/active_constraints.h"
 
 #include "model/hash.h"
@@ -41,7 +42,7 @@ bool ActiveConstraints::has(const CertificateConstraint& constraint) const {
 }
 
 bool ActiveConstraints::has_side(const CertificateConstraint& side) const {
-  // A "rest" of a lemma implies nothing for other agents, so it does not count here.
+  // A "rest" that is a constraint of a lemma implies nothing for other agents, so only sides count.
   if (side.kind == Kind::kRest) return times(own(side.agent, side.p, side.begin)) > 0;
   return has(side);
 }
@@ -52,7 +53,7 @@ bool ActiveConstraints::is_of(const CertificateConstraint& constraint,
     return constraint.p == side.p && constraint.begin == side.begin &&
            constraint.agent != side.agent;
   if (side.p != kSomeGoal) return constraint == side;
-  // A constraint that nothing else imposes must be that on the goal.
+  // `side` is of "later". A `norest` that no other line imposes must be the one on the goal.
   return constraint.kind == Kind::kNoRest && constraint.agent == side.agent &&
          constraint.end == side.end && !has(constraint);
 }

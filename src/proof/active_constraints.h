@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Constraints that are active at a place in a proof, given by the lines above it (docs/proof.md,
-// section 4).
+// Constraints that are active at a line of a proof; the lines above it determine them
+// (docs/proof.md, section 4).
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace grove::detail {
 
-// A side of "later" forbids its agent to rest on its goal, which only the instance contains. Here
-// that constraint has the place kSomeGoal.
+// A side of "later" is a `norest` constraint on the goal of its agent, which only the instance
+// contains. constraint_of() gives this constraint the place kSomeGoal.
 inline constexpr std::int32_t kSomeGoal = -1;
 CertificateConstraint constraint_of(const CertificateLate& side);
 
@@ -19,17 +19,19 @@ class ActiveConstraints {
  public:
   // Adds a constraint of a lemma.
   void add(const CertificateConstraint& constraint) { ++counts_[constraint]; }
-  // Adds a side of a split, with the constraints that it implies for other agents.
+  // Adds a side of a split, including the constraints that it implies for other agents; undo()
+  // removes it again.
   void assume(const CertificateConstraint& side) { count(side, 1); }
   void undo(const CertificateConstraint& side) { count(side, -1); }
   void clear() { counts_.clear(); }
 
-  // Whether `constraint` is active. If it returns false, a side of "later" may still impose it.
+  // True if `constraint` is active. Does not report a constraint that is active only through a side
+  // of "later", because the goal in such a side is not known.
   bool has(const CertificateConstraint& constraint) const;
-  // Whether `side` would add no constraint.
+  // True if `side` would add no constraint to the active ones.
   bool has_side(const CertificateConstraint& side) const;
-  // Whether `side` imposes `constraint`, if *this holds the constraints that are active without the
-  // side. For valid proofs only.
+  // True if `constraint` is one of the constraints that `side` adds. *this must hold the
+  // constraints that are active without `side`. The result is correct only for valid proofs.
   bool is_of(const CertificateConstraint& constraint, const CertificateConstraint& side) const;
 
  private:

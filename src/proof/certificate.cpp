@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Makes a certificate in three passes.
+// Makes a certificate from proof logs in three passes.
 //
-// 1. The first pass reads all logs and computes for each node the bound that it proves. This is the
-// maximum of the sum of its agents' least costs, that sum with what lemmas add, and the lesser of
-// the bounds of its two branches (proof_records.h, split_tree.h).
+// 1. The first pass reads all logs and computes for each node the bound that it proves. This bound
+// is the maximum of three values: the sum of the least costs of its agents; this sum plus the
+// excess that lemmas prove; and the lesser of the bounds of its two branches (proof_records.h,
+// split_tree.h).
 //
-// 2. The second pass descends from the root as far as the bound requires (proof_forest.h), and
-// records the lemmas that the leaves need. Of the lemmas that a leaf could name, it drops one after
-// another as long as the rest suffices, beginning with those that no other leaf has needed yet.
+// 2. The second pass descends from the roots as far as the bound requires (proof_forest.h), and
+// collects the lemmas that the leaves need. From the lemmas that a leaf could name, it removes one
+// after another as long as the others suffice, first those that no earlier leaf needs.
 //
-// 3. The third pass writes.
+// 3. The third pass writes the needed lemmas and the trees.
 //
 // Soundness does not depend on this code: a checker verifies the result.
 #include "proof/certificate.h"
@@ -42,7 +43,7 @@ std::string until(Time end) {
   return end >= kNever ? "inf" : fmt::to_string(end);
 }
 
-// "3 bar 17 4 4"
+// Returns a constraint as text, for example "3 bar 17 4 4".
 std::string proof_text(const AgentConstraint& constraint, const Instance& instance) {
   const Constraint& c = constraint.constraint;
   const auto text = [&](std::string_view what, auto... values) {
@@ -69,13 +70,13 @@ std::string proof_text(const AgentConstraint& constraint, const Instance& instan
   return {};
 }
 
-// "split 3 bar 17 4 4 | 5 bar 17 4 4"
+// Returns the line of a split, for example "split 3 bar 17 4 4 | 5 bar 17 4 4".
 std::string proof_text(const Split& split, const Instance& instance) {
   return fmt::format("split {} | {}", proof_text(split[0], instance),
                      proof_text(split[1], instance));
 }
 
-// "place 17 4 512"
+// Returns the line of a row, for example "place 17 4 512".
 std::string proof_text(const RowMultiplier& charged) {
   const auto& [row, charge] = charged;
   switch (row.kind) {
@@ -89,12 +90,12 @@ std::string proof_text(const RowMultiplier& charged) {
   return {};
 }
 
-// A number, or "inf".
+// Returns a number, or "inf" for kInfiniteCost.
 std::string proof_text(Cost cost) {
   return cost >= kInfiniteCost ? "inf" : fmt::to_string(cost);
 }
 
-// Collects the lemmas that are needed.
+// Selects the lemmas that each leaf names, and collects all needed lemmas.
 class LemmaCollector : public ForestVisitor {
  public:
   explicit LemmaCollector(Cost bound) : bound_(bound) {}
@@ -117,7 +118,7 @@ class LemmaCollector : public ForestVisitor {
   const Cost bound_;
 };
 
-// Writes the lemmas that are needed from a proof log, and numbers them.
+// Writes the needed lemmas of a proof log, and numbers them.
 class LemmaWriter : public ProofLog {
  public:
   // All arguments must outlive this.
@@ -159,6 +160,7 @@ class LemmaWriter : public ProofLog {
   std::unordered_map<ProofKey, std::int64_t> numbers_;
 };
 
+// Writes the lines of the proof of the theorem, and counts splits and leaves.
 class TreeWriter : public ForestVisitor {
  public:
   TreeWriter(const Instance& instance, const LemmaWriter& lemmas, CertificateOutput& output,
@@ -227,8 +229,8 @@ class CertificateBuilder {
   }
 
  private:
-  // Whether the instance was infeasible without any search. The reason is not logged, so the
-  // certificate says `joint`: a checker searches all joint paths.
+  // True if Grove proved the instance infeasible before any search. The log does not contain the
+  // reason, so the proof is `joint`, for which a checker searches all joint paths.
   bool is_evidently_infeasible(Cost claimed) const {
     return claimed >= kInfiniteCost && written_.trees.empty();
   }

@@ -18,19 +18,19 @@ struct Certificate {
   std::int64_t leaves = 0;
   std::int64_t lemmas = 0;
   std::int64_t bytes = 0;
-  bool by_joint_search = false;  // only `joint`: a checker repeats the whole search
+  bool by_joint_search = false;  // the proof is only `joint`: a checker repeats the search
 };
 
-// Makes a certificate from the proof logs `parts` (proof_parts.h). It proves the bound `claimed`,
-// or, if the logs do not suffice for that, the greatest bound that they prove. It contains only
-// those parts of the tree and of the lemmas that this bound needs. The compressed file is written
-// completely or not at all. Throws InputError. Uses about a hundred bytes of memory for each logged
-// split and bound.
+// Writes to `file` a certificate made from the proof logs `parts` (proof_parts.h). The certificate
+// proves the bound `claimed` or, if the logs do not suffice, the greatest bound that they prove. It
+// contains only those parts of the trees and those lemmas that this bound needs. The compressed
+// file appears completely or not at all. Throws InputError. Takes about 100 bytes of memory for
+// each logged split and bound.
 Certificate write_certificate(const Instance& instance,
                               std::span<const std::filesystem::path> parts, Cost claimed,
                               const std::filesystem::path& file);
 
-// Returns the checksum by which a certificate identifies its instance (docs/proof.md, section 6).
+// Returns the checksum that identifies the instance in a certificate (docs/proof.md, section 6).
 std::uint64_t certificate_checksum(const Instance& instance);
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files of certificates, compressed or not: reading their bytes and writing their lines.
+// Certificate files, compressed or not: reads their bytes and writes their lines.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@
 
 namespace grove::detail {
 
-// Reads the file of a certificate and decompresses it if it is compressed.
+// Reads a certificate file and decompresses it if it is compressed. One thread at a time.
 class CertificateBytes {
  public:
-  // Throws InputError, as read() does.
+  // The constructor and read() throw InputError.
   explicit CertificateBytes(const std::filesystem::path& path);
 
-  // Reads up to `size` bytes and returns their number, 0 at the end.
+  // Reads up to `size` decompressed bytes and returns their number; 0 at the end of the file.
   std::size_t read(char* buffer, std::size_t size);
   bool compressed() const { return stream_.has_value(); }
 
@@ -33,13 +33,14 @@ class CertificateBytes {
   std::optional<ZstdDecompressor> stream_;
 };
 
-// Writes a certificate to its file, which appears completely or not at all.
+// Writes a certificate file. The file appears completely at commit(), or not at all. One thread at
+// a time.
 class CertificateOutput {
  public:
   CertificateOutput(const std::filesystem::path& file, bool compressed);
 
   void line(std::string_view text);
-  // Completes the file and returns its size in bytes. Call once, last.
+  // Completes the file and returns its size in bytes. Must be the last call.
   std::int64_t commit();
 
  private:
@@ -48,7 +49,7 @@ class CertificateOutput {
   AtomicFile file_;
   std::int64_t bytes_ = 0;
   std::optional<ZstdCompressor> compressor_;
-  std::string plain_;  // buffer that makes uncompressed writes large
+  std::string plain_;  // buffer for writes without compression
 };
 
 }  // namespace grove::detail

@@ -17,7 +17,7 @@ namespace grove::detail {
 namespace {
 
 constexpr std::uint64_t kTimes = std::uint64_t{1} << 31;
-constexpr std::uint64_t kMaxAgents = std::uint64_t{1} << 20;  // if there is no instance
+constexpr std::uint64_t kMaxAgents = std::uint64_t{1} << 20;  // if no instance is given
 constexpr std::string_view kDigits = "0123456789abcdef";
 constexpr std::size_t kSumDigits = 16;
 
@@ -67,8 +67,8 @@ class Reader {
     words_ = lines_.line();
     visitor_.line(lines_.line());
   }
-  // Words are separated by one blank. Two blanks have an empty word between them, and a blank at
-  // the end of the line is followed by an empty word.
+  // One blank separates two words. Between two adjacent blanks, and after a blank at the end of the
+  // line, is an empty word.
   std::optional<std::string_view> next_word() {
     if (!words_) return std::nullopt;
     const std::string_view all = *words_;
@@ -95,7 +95,7 @@ class Reader {
     const auto found = next_word();
     if (found != expected) fail_at(found, fmt::format("'{}'", expected));
   }
-  // Takes one of `words` and returns its index.
+  // Takes a word that must be one of `words`, and returns its index.
   int one_of(std::initializer_list<std::string_view> words) {
     const auto found = next_word();
     const auto at = found ? std::ranges::find(words, *found) : words.end();
@@ -127,19 +127,19 @@ class Reader {
     return static_cast<LemmaNumber>(number("the number of an earlier lemma", lemmas_));
   }
   std::int32_t time() { return small("a time", kTimes); }
-  // A time interval: begin, end.
+  // Takes the begin and the end of a time interval.
   void span(CertificateConstraint& constraint) {
     constraint.begin = time();
     constraint.end = take_inf() ? CertificateConstraint::kForEver : small("a time or inf", kTimes);
   }
-  // An agent with a goal, and a time.
+  // Takes one side of "later": an agent with a goal, and a time.
   CertificateLate late() {
     const AgentIndex whose = agent();
     if (instance_ != nullptr && !instance_->agent(whose).goal)
       fail_at(fmt::to_string(whose), "the number of an agent with a goal");
     return {whose, time()};
   }
-  // Two agents, each with a time.
+  // Takes two agents, each followed by a time.
   void pair() {
     agent();
     time();
@@ -219,7 +219,8 @@ class Reader {
     return constraint;
   }
 
-  // Takes the rest of a lemma after the word "lemma", and the line after its proof.
+  // Takes a lemma from the second word of its first line to its proof, and the line after the
+  // proof.
   void take_lemma() {
     const Cost proven = bound();
     std::vector<AgentIndex> whose{agent()};
@@ -245,14 +246,14 @@ class Reader {
     take_line();
   }
 
-  // Takes a proof whose first line is already taken. Proofs may be as deep as they are long, so
-  // there is no recursion.
+  // Takes a proof whose first line is already taken. A proof can be as deep as it is long, so the
+  // code uses no recursion.
   void take_proof_from_here() {
     for (std::int64_t open = 1 + step(); open > 0; open += step()) take_line();
     visitor_.proven();
   }
 
-  // Takes a step of a proof. Returns the change in the number of open subproofs.
+  // Takes one step of a proof. Returns the change in the number of open subproofs.
   int step() {
     switch (one_of({"leaf", "split", "later", "joint", "prices"})) {
       case 0:
@@ -323,8 +324,8 @@ class Reader {
   LineStream lines_;
   const Instance* const instance_;
   CertificateVisitor& visitor_;
-  const std::uint64_t agents_, places_, tasks_;  // numbers of these, or upper limits
-  std::optional<std::string_view> words_;        // rest of the line; nullopt: at its end
+  const std::uint64_t agents_, places_, tasks_;  // numbers in the instance, or limits
+  std::optional<std::string_view> words_;        // remainder of the line; nullopt: no word left
   std::vector<LemmaNumber> named_;
   std::int64_t line_ = 0;
   std::uint64_t lemmas_ = 0;  // lemmas read so far

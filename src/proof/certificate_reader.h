@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parser of certificates, line by line. Checks the grammar of docs/proof.md, section 3, strictly,
-// but not whether anything is proven.
+// Streaming parser of certificates. It enforces the grammar of docs/proof.md, section 3, but does
+// not check that the certificate proves anything.
 #pragma once
 
 #include <compare>
@@ -15,16 +15,19 @@
 
 namespace grove::detail {
 
+// A constraint in a certificate (docs/proof.md, section 2).
 struct CertificateConstraint {
   enum class Kind : std::uint8_t { kVertexOrEdge, kMove, kNoRest, kRest, kPass, kStop, kNoStop };
   static constexpr std::int32_t kForEver = -1;
 
   AgentIndex agent = 0;
   Kind kind = Kind::kVertexOrEdge;
-  std::int32_t p = 0;  // in the order of the line: places, or number and task of a stop
+  // kStop and kNoStop: p is the position of the stop, q its task. Others: p and q are the places,
+  // in the order of the line.
+  std::int32_t p = 0;
   std::int32_t q = 0;
   std::int32_t begin = 0;
-  std::int32_t end = 0;
+  std::int32_t end = 0;  // inclusive, or kForEver
 
   friend auto operator<=>(const CertificateConstraint&, const CertificateConstraint&) = default;
 };
@@ -37,7 +40,7 @@ struct CertificateLate {
 
 using LemmaNumber = std::uint32_t;
 
-// Callbacks: line() for each line, then the one for its content.
+// Callbacks of the parser: line() for each line, then the callback for its content.
 class CertificateVisitor {
  public:
   virtual ~CertificateVisitor() = default;
@@ -45,7 +48,7 @@ class CertificateVisitor {
   virtual void line(std::string_view /*text*/) {}
   virtual void head() {}  // one of the first three lines
   virtual void following(bool /*may_follow*/) {}
-  // All callbacks up to proven() belong to this lemma.
+  // A lemma begins. The callbacks up to proven() belong to it.
   virtual void lemma(Cost /*bound*/, std::span<const AgentIndex> /*agents*/) {}
   virtual void constraint(const CertificateConstraint& /*of_lemma*/) {}
   virtual void theorem(Cost /*bound*/) {}
@@ -62,8 +65,9 @@ class CertificateVisitor {
   virtual void end() {}
 };
 
-// Parses a certificate of `instance` (checks its checksum and that the numbers exist), or of any
-// instance if that is nullptr. Buffers only a line or two. Throws InputError, which names `file`.
+// Parses a certificate. If `instance` is not nullptr, checks that the certificate has the checksum
+// of this instance and that its numbers of agents, places and tasks exist. Buffers the current line
+// and some text after it. Throws InputError, whose message names `file`.
 void read_certificate_lines(const std::string& file, ByteSource bytes, const Instance* instance,
                             CertificateVisitor& visitor);
 

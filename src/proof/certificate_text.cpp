@@ -30,7 +30,7 @@ std::string text_of(const std::filesystem::path& path) {
   return text;
 }
 
-// Collects all results except the lines.
+// Collects the bound and the following rule, and counts splits.
 class Summary : public CertificateVisitor {
  public:
   explicit Summary(CertificateText& read) : read_(read) {}

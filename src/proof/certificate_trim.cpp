@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: MIT
-// Trims certificates without the instance, hence without knowledge of what agents cost under any
+// Trims certificates without the instance, hence without the least costs of agents under
 // constraints.
 //
-// The proofs that remain are proofs in the sense of docs/proof.md, and need only what was present
-// before. The following is removed:
+// The remaining proofs are valid by the rules of docs/proof.md and use only constraints and lemmas
+// that they used before. The following parts are removed:
 //
 // - *Splits with a redundant side.* One side of the split adds only constraints that are already
-//   active. The proof below that side proves the node, because its constraints are the same.
-// - *Splits with an unused side.* Nothing below one side needs that side; then the proof below it
-//   proves the node. A leaf whose costs count may need all active constraints, and so may a joint
-//   search and `prices`. But a leaf that is proven by lemmas alone, whatever agents cost
-//   (lemma_table.cpp), only needs the constraints of these lemmas to be active, and "later" those
-//   of its lemma. So a proof with no other leaves needs what these need, minus what its own splits
-//   provide. The side is unused if all of that is active without it. ("rest" implies more than its
-//   own constraint: active_constraints.cpp.) If something else imposes the same constraint, the
-//   proof needs that, and the split or lemma to which it belongs stays: needs are added up from
-//   below, after the removals there.
-// - *Constraints of a lemma* that its proof does not need, by the same argument. The lemma then
-//   says more.
-// - *Lemmas* that say no more than an earlier one of the same agents and constraints.
+//   active. The proof below this side also proves the node, because it has the same active
+//   constraints.
+// - *Splits with an unused side.* If the proof below one side does not need the constraints of this
+//   side, it also proves the node. A leaf that uses the costs of agents can need all active
+//   constraints, and so can `joint` and `prices`. A leaf that lemmas prove for any costs of agents
+//   (lemma_table.cpp) needs only the constraints of these lemmas, and "later" only those of its
+//   lemma. So a proof with only such leaves needs the union of these constraints, without those
+//   that its own splits add. A side is unused if all needed constraints are active without it.
+//   ("rest" adds more than its own constraint: active_constraints.cpp.) If a split or lemma above
+//   imposes the same constraint, the proof then needs it from there, and that split or lemma
+//   remains, because needs are propagated upwards after the removals below.
+// - *Constraints of a lemma* that its proof does not need, by the same argument. The lemma is then
+//   stronger.
+// - *Lemmas* that an earlier lemma with the same agents and constraints implies.
 // - *Names* of lemmas that a leaf does not need.
 // - *Rows* of `prices` with price 0.
-// - In the end, each lemma that nothing left names.
+// - Finally, each lemma that no remaining line names.
 //
-// Three passes: the first decides what stays of each split, the second records the lemmas that the
-// remaining parts name, the third writes.
+// It takes three passes over the file: the first decides which sides of each split to keep, the
+// second records the lemmas that the remaining parts name, and the third writes.
 #include "proof/certificate_trim.h"
 
 #include <fmt/format.h>
@@ -60,6 +61,7 @@ Constraints united(const Constraints& a, const Constraints& b) {
   return all;
 }
 
+// First pass: decides which sides of each split to keep, and fills the lemma table.
 class DecidingPass : public KeptParts {
  public:
   explicit DecidingPass(LemmaTable& lemmas) : lemmas_(lemmas) {}
@@ -124,13 +126,13 @@ class DecidingPass : public KeptParts {
     }
     levels_.pop_back();
   }
-  // Whether the proof below a side proves the node, now that the side is not active.
+  // True if the proof just completed, below a side that is no longer active, also proves the node.
   bool proves_node() const {
     return needs_ && std::ranges::all_of(*needs_, [&](const CertificateConstraint& constraint) {
              return active_.has(constraint);
            });
   }
-  // Returns the needs of a split of which both sides stay. needs_ holds those of its second side.
+  // Returns the needs of a split that keeps both sides. needs_ holds those of its second side.
   Needs needs_of(const Level& level) const {
     if (!level.first || !needs_) return std::nullopt;
     Constraints all =
@@ -164,7 +166,7 @@ class DecidingPass : public KeptParts {
   Needs needs_;  // of the last complete proof
 };
 
-// Walks the certificate again, according to the decisions.
+// Base of the second and third pass, which visit only the parts that the first pass keeps.
 class LaterPass : public KeptParts {
  public:
   LaterPass(const LemmaTable& lemmas, const std::vector<Keep>& keeps)
@@ -204,12 +206,13 @@ class LaterPass : public KeptParts {
   LemmaNumber number_ = 0;
 };
 
+// Second pass: finds the lemmas that the theorem needs, directly or through other lemmas.
 class NamingPass : public LaterPass {
  public:
   NamingPass(const LemmaTable& lemmas, const std::vector<Keep>& keeps)
       : LaterPass(lemmas, keeps), names_(lemmas.size()), needed_(lemmas.size()) {}
 
-  // Returns for each lemma whether it is needed. Call after the whole certificate was read.
+  // Returns, by lemma, whether the theorem needs it. Call after the whole certificate was read.
   std::vector<bool> needed() && {
     for (std::size_t lemma = needed_.size(); lemma-- > 0;)
       if (needed_[lemma])
@@ -241,10 +244,11 @@ class NamingPass : public LaterPass {
   }
 
   std::vector<std::vector<LemmaNumber>> names_;  // by lemma: the lemmas that its proof names
-  std::vector<bool> needed_;                     // by lemma: needed by the theorem
+  std::vector<bool> needed_;                     // by lemma: does the theorem need it?
   std::vector<LemmaNumber>* of_lemma_ = nullptr;
 };
 
+// Third pass: writes the parts to keep, with new numbers for the lemmas.
 class WritingPass : public LaterPass {
  public:
   WritingPass(const LemmaTable& lemmas, const std::vector<Keep>& keeps,
@@ -300,13 +304,14 @@ class WritingPass : public LaterPass {
   const std::vector<bool>& needed_;
   std::vector<LemmaNumber> numbers_;  // by lemma: its new number, if it is needed
   CertificateOutput& output_;
-  std::string_view text_;    // of the current line
-  bool is_needed_ = true;    // whether the current lemma or theorem is needed
+  std::string_view text_;    // text of the current line
+  bool is_needed_ = true;    // is the current lemma or theorem needed?
   Constraints constraints_;  // constraints of the lemma that are not yet written
 };
 
-// Reads the file once. Returns whether it is compressed. Checks the memory before each piece of
-// about 64 kB; data that may grow by much at once is kept in deques.
+// Reads the file once and returns true if it is compressed. Checks the memory limit before each
+// piece of about 64 kB. Data that could grow a lot at once is stored in deques, which never copy
+// all their elements.
 bool walk(const fs::path& file, CertificateVisitor& visitor, const Limits& limits) {
   CertificateBytes bytes(file);
   const ByteSource source = [&](char* buffer, std::size_t size) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Trimming of certificates: removes what the theorem does not need.
+// Trims certificates: removes the parts that the theorem does not need.
 #pragma once
 
 #include <cstddef>
@@ -19,12 +19,12 @@ struct TrimmedCertificate {
   CertificateSizes after;
 };
 
-// Reads a certificate, by any author and for any instance, and writes the parts that prove the
-// theorem to `to`, which may equal `from`. The file is written completely or not at all, and
-// compressed if `from` was. If the certificate was valid, it still is. Reads the file three times.
-// Keeps in memory a byte for each split, all lemmas without their proofs, and the constraints that
-// are active at the current line. Throws InputError, also if this process then holds more than
-// `memory` bytes: a few compressed bytes can be any number of lines.
+// Reads a certificate, from any program and for any instance, and writes the parts that prove the
+// theorem to `to`, which may equal `from`. The file is written completely or not at all, and is
+// compressed if `from` is. If the certificate in `from` is valid, the one in `to` is valid. Reads
+// `from` three times. Keeps in memory one byte for each split, all lemmas without their proofs, and
+// the constraints that are active at the current line. Throws InputError, also if this process uses
+// more than `memory` bytes, because a few compressed bytes can expand to any number of lines.
 TrimmedCertificate trim_certificate(const std::filesystem::path& from,
                                     const std::filesystem::path& to,
                                     std::size_t memory = std::numeric_limits<std::size_t>::max());

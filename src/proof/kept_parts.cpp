@@ -53,7 +53,7 @@ void KeptParts::begin(int which) {
     begin_side(which);
 }
 
-// Ends a proof, and all proofs that end with it.
+// Ends a proof and all enclosing proofs that end at the same line.
 void KeptParts::close() {
   if (is_skipping() && --skipped_depth_ > 0) return;
   while (!levels_.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Visitor of proofs that skips the removed branches of splits.
+// Visitor of a certificate that skips the removed sides of splits.
 #pragma once
 
 #include <array>
@@ -13,13 +13,14 @@
 
 namespace grove::detail {
 
-// What stays of a split: the split with both sides, or the proof below one side in place of the
-// split.
+// The part of a split to keep: the split with both sides, or the proof below one side in place of
+// the split.
 enum class Keep : std::uint8_t { kBoth, kFirst, kSecond };
 
+// A line "split" or "later" with its two sides.
 struct Fork {
   std::array<CertificateConstraint, 2> sides;
-  std::optional<LemmaNumber> why;  // only of "later": its lemma
+  std::optional<LemmaNumber> why;  // for "later": its lemma
 };
 
 class KeptParts : public CertificateVisitor {
@@ -33,9 +34,12 @@ class KeptParts : public CertificateVisitor {
   void rows_end() final;
 
  protected:
-  // Called for splits that are not skipped. `number` counts all splits.
+  // Called at each split that is not skipped. `number` numbers all splits of the certificate,
+  // including skipped ones. Returns the part to keep; kSecond skips the first side.
   virtual Keep opened(std::size_t number, const Fork& fork) = 0;
   virtual void begin_side(int /*which*/) {}
+  // Called after the first side, even if it was skipped. Returns the part to keep; kFirst skips the
+  // second side.
   virtual Keep first_done(std::size_t number) = 0;
   virtual void second_done(std::size_t /*number*/) {}
   virtual void kept_leaf(std::span<const LemmaNumber> lemmas) = 0;
@@ -58,7 +62,7 @@ class KeptParts : public CertificateVisitor {
 
   std::size_t splits_ = 0;
   std::deque<Level> levels_;
-  std::int64_t skipped_depth_ = 0;  // number of open subproofs of the skipped side
+  std::int64_t skipped_depth_ = 0;  // number of open subproofs on the skipped side
 };
 
 }  // namespace grove::detail

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Which lemmas a leaf needs.
+// Selects the lemmas that a leaf needs.
 //
-// A leaf is proven by lemmas alone if agents that cost at least 0 each, and in groups at least what
-// the lemmas say, cost enough together. This is a covering problem, as where a search chooses the
-// lemmas to name (proof_records.h), with only the lower bound 0 on each agent. Only lemmas without
-// a common agent are added up here, because every checker finds that sum.
+// Lemmas alone prove a leaf if the sum of costs is at least its bound for all costs of agents that
+// are at least 0 each and satisfy the lemmas. This is a covering problem as in proof_records.h, but
+// with the lower bound 0 on each agent. Here only the bounds of lemmas without a common agent are
+// added, because every checker finds that sum.
 //
-// If the costs of agents are needed too, a leaf does not need a lemma that another one implies: a
-// lemma of a subset of its agents with a bound that is no less. The cost of the other agents is at
-// least 0, so if c + x of the smaller group is enough, that of the larger group is.
+// If a leaf also needs the costs of agents, it does not need a lemma that another named lemma
+// implies. A lemma implies another one if its agents are a subset and its bound is no less: the
+// other agents cost at least 0, so if the smaller group costs at least this bound, so does the
+// larger one.
 #include "proof/lemma_table.h"
 
 #include <algorithm>
@@ -20,8 +21,8 @@
 namespace grove::detail {
 namespace {
 
-// If a leaf names more lemmas than this, all are assumed to be needed, because each lemma is
-// compared with each other one.
+// If a leaf names more lemmas than this, it keeps all of them, because comparing each pair would
+// take too long.
 constexpr std::size_t kMaxNames = 1000;
 constexpr std::int64_t kNoSteps = 0;
 
@@ -51,7 +52,7 @@ void LemmaTable::add(TableLemma lemma) {
 LemmaTable::Leaf LemmaTable::leaf(std::span<const LemmaNumber> named, Cost bound) const {
   Leaf leaf{worth_naming(named), false};
   if (leaf.names.size() > kMaxNames) return leaf;
-  // Lemmas with most constraints are removed first.
+  // leave_out() removes the last lemmas first, which are those with the most constraints.
   std::ranges::stable_sort(leaf.names, {},
                            [&](LemmaNumber name) { return lemmas_[name].constraints.size(); });
   std::vector<ProofExcess> excesses;
@@ -86,8 +87,8 @@ std::vector<LemmaNumber> LemmaTable::worth_naming(std::span<const LemmaNumber> n
   return names;
 }
 
-// Whether `stronger` implies `weaker`. Of two that imply each other, only the earlier one counts as
-// stronger.
+// True if `stronger` implies `weaker`. If two lemmas imply each other, only the earlier one counts
+// as stronger.
 bool LemmaTable::implies(LemmaNumber stronger, LemmaNumber weaker) const {
   const TableLemma& one = lemmas_[stronger];
   const TableLemma& other = lemmas_[weaker];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The lemmas of a certificate without their proofs, and the lemmas that its leaves need.
+// The lemmas of a certificate without their proofs, and the selection of the lemmas that a leaf
+// needs.
 #pragma once
 
 #include <deque>
@@ -12,11 +13,12 @@
 
 namespace grove::detail {
 
+// A lemma without its proof.
 struct TableLemma {
   std::vector<AgentIndex> agents;
   Cost bound = 0;
-  std::vector<CertificateConstraint> constraints;  // that its proof needs; ascending
-  LemmaNumber same_as = 0;  // an earlier lemma that implies this one, or itself
+  std::vector<CertificateConstraint> constraints;  // those that its proof needs; ascending
+  LemmaNumber same_as = 0;  // an earlier lemma that implies this one, or this one
 };
 
 class LemmaTable {
@@ -30,8 +32,8 @@ class LemmaTable {
   const TableLemma& operator[](LemmaNumber number) const { return lemmas_[number]; }
   std::size_t size() const { return lemmas_.size(); }
 
-  // The lemmas that a leaf must name, ascending, and whether they prove its bound whatever agents
-  // cost.
+  // The lemmas that a leaf must name, ascending; `by_lemmas` is true if they prove its bound for
+  // any costs of agents.
   struct Leaf {
     std::vector<LemmaNumber> names;
     bool by_lemmas = false;

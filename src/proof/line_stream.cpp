@@ -31,7 +31,8 @@ std::string_view LineStream::line() const {
   return std::string_view(text_).substr(begin_, end_ - begin_ - 1);
 }
 
-// Moves the begun line to the front and reads more text after it.
+// Moves the incomplete line to the front of the buffer and reads more text after it. Returns false
+// at the end.
 bool LineStream::take_more() {
   std::memmove(text_.data(), text_.data() + begin_, size_ - begin_);
   size_ -= std::exchange(begin_, 0);

@@ -10,13 +10,15 @@
 
 namespace grove::detail {
 
-// Source of a text: writes up to `size` bytes to `buffer` and returns their number, 0 at the end.
+// Source of a text: writes up to `size` bytes to `buffer` and returns their number; 0 at the end.
 using ByteSource = std::function<std::size_t(char* buffer, std::size_t size)>;
 
-// Buffers the current line and some text after it.
+// Buffers the current line and some text after it. One thread at a time.
 class LineStream {
  public:
-  static constexpr std::size_t kMaxLineLength = std::size_t{1} << 22;
+  static constexpr std::size_t kMaxLineLength = std::size_t{1} << 22;  // bytes of a line
+  // kLine: line() is the next line. kNone: the text has ended. kUnterminated: the text ends within
+  // a line. kTooLong: the line is longer than kMaxLineLength.
   enum class Next : std::uint8_t { kLine, kNone, kUnterminated, kTooLong };
 
   explicit LineStream(ByteSource source);

@@ -19,10 +19,10 @@ void ProofForest::visit(Cost bound, ForestVisitor& visitor) {
   visit(all, 0, 0, visitor);
 }
 
-// Visits the proof of `trees`, which share all stops before stop `number` of `agent`. Splits on
-// "the stop is that of the first of these trees" or "it is not", stop after stop, until one tree is
-// left. If `trees` is empty, the agents' individual costs suffice, because that holds for all joint
-// sequences without a tree.
+// Visits the proof for `trees`, which agree on all stops before stop `number` of `agent`. Splits on
+// whether this stop is that of the first tree, and continues stop by stop until one tree is left.
+// If `trees` is empty, the individual costs of the agents suffice, as for all joint sequences
+// without a tree.
 void ProofForest::visit(const Trees& trees, std::size_t agent, std::size_t number,
                         ForestVisitor& visitor) {
   if (trees.empty()) return visitor.leaf(nullptr);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The constraint trees of all joint sequences, combined into one proof. Its upper part splits on
-// what the next stops are; below these splits is each tree, down to where the bound is proven.
+// the next stops of the agents. Below these splits are the trees, each down to the nodes at which
+// the bound is proven.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +17,7 @@ namespace grove::detail {
 class ForestVisitor {
  public:
   virtual ~ForestVisitor() = default;
-  // nullptr: the agents' individual costs suffice.
+  // nullptr: the individual costs of the agents suffice.
   virtual void leaf(ProofEntry* entry) = 0;
   virtual void split(const ProofEntry& entry) = 0;
   virtual void split(const Split& on_sequence) = 0;
@@ -24,10 +25,10 @@ class ForestVisitor {
 
 class ProofForest {
  public:
-  // `written` must outlive this.
+  // `written` must outlive this. One thread at a time.
   explicit ProofForest(ProofRecords& written) : written_(written), tree_(written.entries) {}
 
-  // Returns the bound that the trees prove, at most `claimed`.
+  // Returns the bound that the trees prove, at most `claimed`. Call it before visit().
   Cost value(Cost claimed);
   void visit(Cost bound, ForestVisitor& visitor);
 

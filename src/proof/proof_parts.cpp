@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Format: a zstd-compressed sequence of 8-byte integers. Each entry is its kind, the number of
-// integers that follow, and these integers. Most bytes are zero and compress to almost nothing.
+// File format: a zstd-compressed sequence of 8-byte integers in the byte order of the machine. Each
+// entry consists of its kind, the number n of integers that follow, and n integers. Most bytes are
+// zero and compress to almost nothing.
 #include "proof/proof_parts.h"
 
 #include <fcntl.h>
@@ -25,7 +26,7 @@ enum PartKind : std::int64_t {
   kJoint = 5,
   kTree = 6
 };
-constexpr std::int64_t kMaxNumbers = std::int64_t{1} << 28;  // maximum length of an entry
+constexpr std::int64_t kMaxNumbers = std::int64_t{1} << 28;  // maximum n of an entry
 
 using Numbers = std::vector<std::int64_t>;
 
@@ -49,7 +50,7 @@ void add(Numbers& numbers, const ProofSplit& split) {
   throw InputError(path.string(), "", "expected the record of a search for its proof");
 }
 
-// Takes numbers back in the order in which they were added.
+// Reads the integers of an entry in the order of their addition.
 class NumberReader {
  public:
   NumberReader(const Numbers& numbers, const std::filesystem::path& path)
@@ -62,7 +63,7 @@ class NumberReader {
   bool is_over() const { return at_ == numbers_.size(); }
   ProofKey key() { return static_cast<ProofKey>(number()); }
   std::int32_t small() { return static_cast<std::int32_t>(number()); }
-  // Takes the number of items that follow.
+  // Reads the number of items that follow.
   std::int64_t count() {
     const std::int64_t count = number();
     if (count < 0 || std::cmp_greater(count, numbers_.size() - at_)) refuse();
@@ -202,9 +203,9 @@ class ProofRecorder::Stream {
 
   const std::filesystem::path path_;
   FileDescriptor file_;
-  std::mutex mutex_;  // guards:
+  std::mutex mutex_;  // guards file_, compressor_ and failure_
   ZstdCompressor compressor_;
-  std::string failure_;  // nonempty: why nothing more is logged
+  std::string failure_;  // not empty: error after which nothing more is logged
 };
 
 ProofRecorder::ProofRecorder(std::filesystem::path path)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Proof log files: each process writes one while it searches, and a certificate is made from all.
+// Proof log files. Each process writes one file during its search; write_certificate() reads all of
+// them.
 #pragma once
 
 #include <filesystem>
@@ -12,9 +13,9 @@
 namespace grove::detail {
 
 // Logs all calls to a compressed file, in order. Thread-safe. Buffers about 4 MB, nearly all of it
-// for the compression. If the disk is full, it removes the file and logs nothing more: the search
-// continues, and its plan needs the space. A certificate without this file proves less, never too
-// much.
+// in the compressor. If a write fails, for instance because the disk is full, it removes the file
+// and logs nothing more: the search continues and needs the space for its plan. A certificate made
+// without this file can only prove a smaller bound, never a wrong one.
 class ProofRecorder : public ProofLog {
  public:
   // Throws InputError if the file cannot be created.
@@ -28,8 +29,8 @@ class ProofRecorder : public ProofLog {
   void prices(Cost bound, std::span<const RowMultiplier> rows) override;
   void joint(Cost bound) override;
 
-  // Writes everything logged so far to the file. Returns the error message if that failed, else an
-  // empty string.
+  // Writes all entries so far to the file. Returns the error message of the first failed write; ""
+  // if none failed.
   std::string flush();
 
  private:
@@ -37,9 +38,9 @@ class ProofRecorder : public ProofLog {
   const std::unique_ptr<Stream> stream_;
 };
 
-// Replays a file to `log`, in the order in which it was written. A file that ends within an entry,
-// because its process was killed, is read up to that entry. Throws InputError if the file cannot be
-// read or was not written by a ProofRecorder.
+// Replays the entries of a file to `log`, in the order of the file. If the file ends within an
+// entry, because its process was killed, it is read up to this entry. Throws InputError if the file
+// cannot be read or was not written by a ProofRecorder.
 void read_proof_part(const std::filesystem::path& path, ProofLog& log);
 
 }  // namespace grove::detail

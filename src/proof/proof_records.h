@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Contents of proof logs, indexed by node: why the bounds of the searches hold. And the choice of
-// the lemmas that a leaf needs among those that it could name.
+// Contents of proof logs, indexed by constraint-tree node: the reasons for the bounds of a search.
+// Also selects the lemmas that a leaf needs from those that it could name.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,16 @@ namespace grove::detail {
 // Record of one node.
 struct ProofEntry {
   Cost cost = 0;   // sum of its agents' individual costs
-  Cost bound = 0;  // `cost` plus what lemmas add
+  Cost bound = 0;  // `cost` plus the excess that lemmas prove
   std::vector<ProofExcess> excesses;
   std::optional<ProofSplit> split;
-  std::optional<Cost> value;  // the bound that it proves
+  std::optional<Cost> value;  // the bound that the node proves; set by SplitTree::value()
 };
 
 using ProofEntries = std::unordered_map<ProofKey, ProofEntry>;
 
-// All records. Of lemmas only the keys are kept.
+// All records of the logs that are replayed to it. For each lemma it stores only the key. One
+// thread at a time.
 class ProofRecords : public ProofLog {
  public:
   ProofEntries entries;
@@ -42,17 +43,19 @@ class ProofRecords : public ProofLog {
   void prices(Cost bound, std::span<const RowMultiplier> rows) override;
   void joint(Cost bound) override;
 
-  // Removes records that name lemmas that are missing, because a process was killed before it wrote
-  // them.
+  // Removes records that name missing lemmas. A lemma is missing if its process was killed before
+  // it wrote the lemma.
   void drop_records_without_lemmas();
 };
 
-// Returns the excess that `excesses` imply together (search/covering.h). `steps` limits the effort.
-// With 0 steps it only adds statements without a common agent.
+// Default effort limit of covered() and leave_out().
 inline constexpr std::int64_t kCoveringSteps = 100'000;
+// Returns the excess that `excesses` together imply (search/covering.h). `steps` limits the effort.
+// With 0 steps it only adds excesses of groups without a common agent.
 Cost covered(std::span<const ProofExcess> excesses, std::int64_t steps = kCoveringSteps);
 
-// Removes excesses one after another, the last ones first, as long as the rest covers `wanted`.
+// Removes excesses one after another, from the last to the first, as long as the remaining ones
+// imply at least `wanted`.
 void leave_out(std::vector<ProofExcess>& excesses, Cost wanted,
                std::int64_t steps = kCoveringSteps);
 

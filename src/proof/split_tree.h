@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A logged tree of splits, from its root down to where the bound is proven. Without recursion: a
-// tree may be as deep as it has nodes.
+// A logged tree of splits, from its root down to the nodes at which the bound is proven. The code
+// uses no recursion, because the depth of a tree can be as large as its number of nodes.
 #pragma once
 
 #include <array>
@@ -13,14 +13,16 @@ namespace grove::detail {
 
 class SplitTree {
  public:
-  // `entries` must outlive this. value() stores in them what the nodes prove.
+  // `entries` must outlive this. value() stores in them the bounds that the nodes prove. One thread
+  // at a time.
   explicit SplitTree(ProofEntries& entries) : entries_(entries) {}
 
-  // Returns the bound that the node proves if its agents' costs sum to `cost`.
+  // Returns the bound that the tree at `root` proves, where `cost` is the sum of the individual
+  // costs of the agents at the root.
   Cost value(ProofKey root, Cost cost);
 
-  // Calls leaf(entry or nullptr) and split(entry) in the order of the certificate. nullptr: the
-  // agents' individual costs suffice.
+  // Calls leaf(entry or nullptr) and split(entry) in the order of the certificate, after value().
+  // nullptr: the individual costs of the agents suffice.
   template <class Leaf, class Split>
   void walk(ProofKey root, Cost cost, Cost bound, Leaf leaf, Split split) {
     std::vector<std::pair<ProofKey, Cost>> left{{root, cost}};

@@ -13,12 +13,12 @@ namespace grove::detail {
 
 class ZstdCompressor {
  public:
-  // Receives the compressed bytes.
+  // Function that receives the compressed bytes.
   using Sink = std::function<void(std::string_view)>;
   explicit ZstdCompressor(Sink sink);
 
   void add(std::string_view bytes);
-  // Passes on enough output to decompress all input so far.
+  // Passes enough output to the sink to decompress all input so far.
   void flush() { put({}, ZSTD_e_flush); }
   // Ends the frame. Bytes added later begin a new frame.
   void end() { put({}, ZSTD_e_end); }
@@ -33,15 +33,15 @@ class ZstdCompressor {
 
 class ZstdDecompressor {
  public:
-  // Source of compressed bytes: writes up to `size` bytes to `buffer` and returns their number, 0
+  // Source of compressed bytes: writes up to `size` bytes to `buffer` and returns their number; 0
   // at the end.
   using Source = std::function<std::size_t(char* buffer, std::size_t size)>;
   explicit ZstdDecompressor(Source source);
 
-  // Reads up to `size` bytes and returns their number. Fewer only at the end, or where the stream
-  // is truncated.
+  // Reads `size` decompressed bytes, or fewer at the end of the input (also if a frame is
+  // incomplete) and if the stream is broken. Returns their number.
   std::size_t read(char* bytes, std::size_t size);
-  // Whether the input is not a valid stream.
+  // True if the input is not a valid zstd stream.
   bool broken() const { return broken_; }
 
  private:

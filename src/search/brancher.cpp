@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: MIT
-// Branching: Algorithm 1 of the paper, lines 13-22. On a conflict it creates one child for each way
-// to resolve the conflict and replans under the *child's* constraints. (The paper's line 17 plans
-// under the parent's constraints, which would repeat the conflict for ever.)
+// Branching: Algorithm 1 of the paper, lines 13-22. Chooses a conflict of the node, creates one
+// child for each way to resolve it, and re-plans under the *child's* constraints. (The paper's line
+// 17 plans under the parent's constraints, which would repeat the conflict for ever.)
 //
 // *Choice of the conflict.* Strong branching, as in integer programming (Applegate et al. 1995; for
-// CBS the idea behind cardinal conflicts, Boyarski et al. 2015): for every split that the node's
-// conflicts allow, the increase of the sum of costs is computed exactly for both branches, and the
-// split whose smaller increase is largest is taken. The increases are differences of costs of
-// single agents under constraints. These costs are cached: most conflicts of a node were evaluated
-// at its parent. The increase of a branch that cannot lead to a plan cheaper than the cutoff counts
-// as infinite; a split with two such branches closes the node.
+// CBS the idea behind cardinal conflicts, Boyarski et al. 2015). For every split that the node's
+// conflicts allow, the increase of the sum of costs is computed exactly for both branches, unless a
+// computation exceeds the label limit. The split with the largest smaller increase is chosen. The
+// increases are differences of costs of single agents under constraints. These costs are cached,
+// because most conflicts of a node were already evaluated at its parent. The increase of a branch
+// that cannot lead to a plan cheaper than the cutoff counts as infinite; a split with two such
+// branches closes the node.
 //
-// *Fewest conflicts.* Among the cheapest paths of a branch, one with the fewest conflicts is
-// computed (fewest_conflicts.cpp): the low level by itself examines few of the ways to spend a
+// *Fewest conflicts.* Of the cheapest paths of a branch, one with the fewest conflicts is computed
+// (fewest_conflicts.cpp), because the low level by itself examines few of the ways to spend a
 // delay.
 //
-// *Bypassing* (Boyarski et al. 2015). If a branch costs nothing and its paths have fewer conflicts,
-// they satisfy all constraints of the node at the node's cost: they replace the node's paths, and
-// the node is not split.
+// *Bypassing* (Boyarski et al. 2015). If the paths of a branch cost no more than those of the node
+// and have fewer conflicts, they replace the node's paths, and the node is not split. This is sound
+// because they satisfy all constraints of the node at the node's cost.
 //
-// *Claim: no plan is lost.* A split is a pair of constraints such that every conflict-free plan
-// satisfies at least one of them (see conflict.cpp, target.cpp, corridor.cpp), whichever split is
-// chosen and whatever the paths are. A branch is closed only if its constraint, together with the
-// node's, raises the costs of single agents so far that the sum reaches the cutoff, where each
-// other agent counts with its cost at the node, which is a lower bound.
+// *Claim: no plan is lost.* *Proof.* A split is a pair of constraints such that every conflict-free
+// plan satisfies at least one of them (see conflict.cpp, target.cpp, corridor.cpp). This holds
+// whichever split is chosen and whatever the paths are. A branch is closed only if the sum of costs
+// reaches the cutoff under its constraint and those of the node. In this sum, each agent that is
+// not re-planned counts with its cost at the node, which is a lower bound.
 #include "search/brancher.h"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ namespace {
 
 constexpr int kMaxBypasses = 64;  // bypasses per call
 
-// Hash of the pair of agents (the finaliser of SplitMix64, Steele et al. 2014).
+// Pseudo-random priority of the pair of agents (the finaliser of SplitMix64, Steele et al. 2014).
 std::uint64_t priority(const Conflict& conflict, std::uint64_t seed) {
   std::uint64_t x = seed * 0x9e3779b97f4a7c15 + (static_cast<std::uint64_t>(conflict.first) << 32) +
                     static_cast<std::uint64_t>(conflict.second);
@@ -59,9 +60,9 @@ Brancher::Brancher(const Problem& problem, const SearchOptions& options, PathPla
       others_(problem.instance.world()),
       table_paths_(problem.instance.agent_count()) {}
 
-// The number of bypasses per call is limited. Each bypass lowers the number of conflicts, but the
-// count is not symmetric for two agents that rest on one cell, so the count does not prove that the
-// bypasses end.
+// The number of bypasses per call is limited. Each bypass lowers the counted number of conflicts,
+// but this count is not symmetric for two agents that rest on one cell, so it does not prove that
+// the bypasses end.
 Brancher::Outcome Brancher::branch(NodeView& view, Cost cutoff,
                                    std::span<const Split> fallback_splits, const Limits& limits,
                                    std::vector<NodePtr>& children) {
@@ -87,7 +88,8 @@ Brancher::Outcome Brancher::branch(NodeView& view, Cost cutoff,
   return Outcome::kConflictFree;
 }
 
-// Updates the conflict avoidance table to the paths in scope. Most are those of the previous node.
+// Updates the conflict avoidance table to the paths in scope. Most paths are the same as at the
+// previous node.
 void Brancher::update_avoidance_table(const NodeView& view) {
   for (std::size_t agent = 0; agent < table_paths_.size(); ++agent) {
     const Path& path = view.paths()[agent];
@@ -99,8 +101,8 @@ void Brancher::update_avoidance_table(const NodeView& view) {
   if (options_.audit) audit(problem_, others_, view.paths());
 }
 
-// Chooses the split that raises the bounds most; without strong branching, or if there is none, a
-// split of an earliest conflict.
+// Chooses the split that raises the bounds most. Without strong branching, or if no split could be
+// evaluated, chooses a split of an earliest conflict.
 bool Brancher::choose(const Task& task, std::span<const Split> fallback_splits, Branching& chosen) {
   const Techniques techniques = options_.techniques;
   if (!techniques.has(Technique::kStrongBranching)) {
@@ -146,8 +148,8 @@ Branching Brancher::earliest(const NodeView& view) {
   return {*best, splits_[splits_.size() > 1 ? 1 : 0]};
 }
 
-// Replans the agents of one branch of the split, with few conflicts with the other agents' paths.
-// This and the next two functions return false if a limit was reached.
+// Re-plans the agents of one branch, preferring few conflicts with the paths of other agents.
+// evaluate_branch(), replan() and replan_one() return false if a limit was reached.
 bool Brancher::evaluate_branch(const Task& task, const AgentConstraint& constraint, Branch& side) {
   side.open = true;
   side.increase = 0;
@@ -179,7 +181,7 @@ bool Brancher::replan(const Task& task, const AgentConstraint& constraint, Branc
 }
 
 // Writes a cheapest path under the additional constraint `more` to path_ if it costs at most
-// `cutoff`; `found` says whether it does.
+// `cutoff`, and sets `found` to whether it does.
 bool Brancher::replan_one(const Task& task, AgentIndex agent, const Constraint& more, Time cutoff,
                           bool& found) {
   const AgentSequencing& order = task.view.order(agent);
@@ -206,8 +208,8 @@ bool Brancher::replan_one(const Task& task, AgentIndex agent, const Constraint& 
   return outcome != PathOutcome::kStopped;
 }
 
-// Replaces the node's paths by those of a branch if that costs nothing and saves conflicts. Returns
-// whether it did.
+// Replaces the node's paths by those of a branch if this costs nothing and leaves fewer conflicts.
+// Returns whether it did.
 bool Brancher::bypass(NodeView& view, const Branch& side) {
   if (!options_.techniques.has(Technique::kBypass)) return false;
   if (!side.open || side.increase > 0 || side.conflicts >= 0) return false;

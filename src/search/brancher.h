@@ -20,42 +20,42 @@
 
 namespace grove::detail {
 
-// The split of a node and the conflict that it resolves.
+// The split of a node, and the conflict that it resolves.
 struct Branching {
   Conflict conflict;  // of the node's paths
   Split split;
 };
 
-// Chooses the split of a node by strong branching and creates the children. The proof that no plan
-// is lost is at the head of brancher.cpp. One thread at a time.
+// Chooses the split of a node, normally by strong branching, and creates the children. The proof
+// that no plan is lost is at the head of brancher.cpp. One thread at a time.
 class Brancher {
  public:
   enum class Outcome : std::uint8_t {
     kBranched,
-    kConflictFree,  // the paths in scope have no conflict, at the node or after bypasses: see
-                    // NodeView::path()
-    kStopped,       // a limit was reached: no result
+    kConflictFree,  // NodeView::paths() have no conflict, possibly after bypasses
+    kStopped,       // a limit was reached; there is no result
   };
 
-  // All arguments must outlive this object; `planner` and `memory` may be shared with other objects
-  // of the same thread.
+  // `problem`, `planner` and `memory` must outlive this object. `planner` and `memory` may be
+  // shared with other objects of the same thread.
   Brancher(const Problem& problem, const SearchOptions& options, PathPlanner& planner,
            WorkerCache& memory);
 
   // Creates the children of the node that `view` has entered and appends them to `children`, at
   // most two. Every plan that satisfies the node's constraints and costs less than `cutoff`
-  // satisfies the constraints of one of them. A child that is proven to hold no such plan is
-  // omitted. `fallback_splits` are further splits that are valid at the node. They are considered
-  // if no split of a conflict raises the cost of a branch, and only if their two agents are in
-  // conflict.
+  // satisfies the constraints of at least one child; a child that is proven to hold no such plan is
+  // omitted. `fallback_splits` are further splits that are valid at the node. Strong branching
+  // considers them if no split of a conflict raises the cost of any branch, and then only those
+  // whose two agents are in conflict.
   Outcome branch(NodeView& view, Cost cutoff, std::span<const Split> fallback_splits,
                  const Limits& limits, std::vector<NodePtr>& children);
-  // The split of the last node; nullopt if it was not split.
+  // The split that the last call of branch() made; nullopt if it made none.
   const std::optional<Branching>& branching() const { return branching_; }
 
-  // Counters: MDD nodes searched for paths of fewest conflicts; splits made, by the kind of their
-  // second constraint, which identifies the technique (kRestBy: target, kNoRestBy: cost splits);
-  // bypasses; cost computations for strong branching.
+  // Counters since construction. optimal_nodes(): MDD nodes searched for paths with the fewest
+  // conflicts. splits(): splits by the kind of their second constraint, which identifies the
+  // technique (kRestBy: target, kNoRestBy: cost split). child_costs(): cost queries of strong
+  // branching.
   std::int64_t optimal_nodes() const { return fewest_conflicts_.nodes(); }
   std::span<const std::int64_t, kConstraintKinds> splits() const { return splits_made_; }
   std::int64_t bypasses() const { return bypasses_; }
@@ -66,16 +66,17 @@ class Brancher {
   struct Branch {
     bool open = false;  // false: the branch holds no plan cheaper than the cutoff
     Cost increase = 0;
-    int conflicts = 0;               // change of the number of conflicts
-    std::vector<AgentIndex> agents;  // the replanned agents ...
-    std::vector<Path> paths;         // ... and their new paths
+    int conflicts = 0;               // change in the number of conflicts
+    std::vector<AgentIndex> agents;  // the re-planned agents
+    std::vector<Path> paths;         // their new paths, in the same order
   };
-  // The best split so far, compared by (smaller, larger) cost increase of its branches.
+  // The best split so far. Splits are compared by (smaller, larger) cost increase of their
+  // branches.
   struct Choice {
     std::pair<Cost, Cost> gain{-1, -1};
     Branching branching;
   };
-  // Input of one call of branch().
+  // Arguments of one call of branch().
   struct Task {
     NodeView& view;
     Cost slack;  // max cost increase of a child
@@ -101,8 +102,8 @@ class Brancher {
   WorkerCache& memory_;
   ChildCosts child_costs_;
   FewestConflicts fewest_conflicts_;
-  ConflictAvoidanceTable others_;  // the paths in scope
-  std::vector<Path> table_paths_;  // what others_ holds, by AgentIndex
+  ConflictAvoidanceTable others_;  // holds the paths in scope
+  std::vector<Path> table_paths_;  // the paths in others_, by AgentIndex
 
   std::vector<Split> splits_;
   std::array<Branch, 2> branches_;

@@ -2,8 +2,9 @@
 #include "search/child_costs.h"
 
 namespace grove::detail {
-// Why there is a label limit: cells forbidden for ever act as time windows, with which the low
-// level is NP-hard, so that one call could use all the time.
+
+// The label limit is needed because cells that are forbidden for ever act as time windows. With
+// these the low-level problem is NP-hard, so a single call could use up all the time.
 ChildCosts::Outcome ChildCosts::increase(NodeView& view, const AgentConstraint& constraint,
                                          Cost slack, const Limits& limits, Cost& increase) {
   increase = 0;

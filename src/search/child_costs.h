@@ -12,34 +12,35 @@
 
 namespace grove::detail {
 
-// Computes the cost increase of a branch for strong branching. The costs of single agents are
-// cached from node to node. One thread at a time.
+// Computes the cost increases of branches for strong branching. Caches the costs of single agents
+// from node to node. One thread at a time.
 class ChildCosts {
  public:
   enum class Outcome : std::uint8_t {
     kDone,
-    kTooHard,  // the label limit was reached, by this call or by an earlier call on the same
-               // subproblem
+    kTooHard,  // the low level gave no result within the label limit or the size limit of its
+               // tables, in this call or in an earlier call for the same subproblem
     kStopped,  // a limit was reached
   };
 
-  // `planner` and `memory` must outlive this object. `label_limit` is the label limit of each low
-  // level call of increase(); a split that needs more labels is not considered.
+  // `planner` and `memory` must outlive this object. `label_limit` is the label limit of each
+  // low-level call that increase() makes; strong branching does not consider a split that needs
+  // more.
   ChildCosts(PathPlanner& planner, WorkerCache& memory, std::int64_t label_limit)
       : planner_(planner), memory_(memory), label_limit_(label_limit) {}
 
-  // Computes by how much the individual costs of the agents in scope rise in total if `constraint`
-  // is added; kInfiniteCost if by more than `slack`.
+  // Sets `increase` to the total by which the individual costs of the agents in scope rise if
+  // `constraint` is added, or to kInfiniteCost if that exceeds `slack`.
   Outcome increase(NodeView& view, const AgentConstraint& constraint, Cost slack,
                    const Limits& limits, Cost& increase);
 
-  // Computes the cost of the agent under the additional constraint `more`. If it is above `cutoff`,
-  // returns some value above `cutoff`. kTooHard only if the computation takes more than
-  // `label_limit` labels.
+  // Sets `cost` to the cost of the agent under its constraints at the node and `more`, or to some
+  // value above `cutoff` if the cost is above `cutoff`. With PathQuery::kUnlimited it ignores that
+  // an earlier call was too hard.
   Outcome cost(NodeView& view, AgentIndex agent, const Constraint& more, Time cutoff,
                std::int64_t label_limit, const Limits& limits, Time& cost);
 
-  // Number of calls of cost(), and of those answered from the cache.
+  // Number of calls of cost(), and number of those that the cache answered.
   std::int64_t asked() const { return asked_; }
   std::int64_t known() const { return known_; }
 
@@ -53,7 +54,7 @@ class ChildCosts {
   std::int64_t known_ = 0;
 };
 
-// The max cost of an agent if the sum of costs may rise by `slack`.
+// The greatest cost that an agent may have if the sum of costs may rise by at most `slack`.
 inline Time cutoff_for(const NodeView& view, AgentIndex agent, Cost slack) {
   return static_cast<Time>(std::min<Cost>(view.cost_of(agent) + slack, kNever - 1));
 }

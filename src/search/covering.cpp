@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Covering bound: least sum of nonnegative integers, one per agent, that fulfils all statements.
+// Covering bound: the least sum of nonnegative integers, one per agent, that fulfils all
+// statements.
 //
-// Each component of the hypergraph of statements is solved separately. For B = greedy bound,
-// greedy bound + 1, ... a depth-first search decides whether there is a solution of sum at most B.
-// It chooses a statement that is not fulfilled and branches on the agent of it that gets one more.
-// Once a branch has tried agent i, its later siblings may not raise i again, so each solution is
-// tried once. A branch is cut off if its greedy bound exceeds the rest of B. The first B with a
-// solution is the optimum. If the steps run out, the current B is a bound, because all smaller
-// values were refuted.
+// Each component of the hypergraph of statements is solved separately. For B = greedy bound, greedy
+// bound + 1, ... a depth-first search decides whether there is a solution with a sum of at most B.
+// It chooses a statement that is not fulfilled and branches on the agent whose integer rises by
+// one. After the branch for agent i, later siblings may not raise i again, so each solution is
+// tried once. A branch is cut off if its greedy bound exceeds what is left of B. The first B with a
+// solution is the optimum. If the step limit is reached, the current B is a bound, because all
+// smaller values were refuted.
 //
-// The greedy bound is the sum of statements chosen one after the other such that no two share an
-// agent; every solution has at least this sum. If it is large (a statement may have infinite
-// excess), it is returned as the result: the search would be as deep as B is large.
+// The greedy bound is the sum of the excesses of statements that are chosen one after the other
+// such that no two share an agent; every solution has at least this sum. If it is large (a
+// statement can have infinite excess), it is returned as the result, because the search would be as
+// deep as B is large.
 #include "search/covering.h"
 
 #include <algorithm>
@@ -62,8 +64,8 @@ class Component {
     return sum;
   }
 
-  // Returns whether all statements can be fulfilled with a further sum of at most `left`; true also
-  // if the steps run out.
+  // Returns whether all statements can be fulfilled by raising the integers by at most `left` in
+  // total; also returns true if the step limit is reached.
   bool fulfil(Cost left) {
     steps_ -= static_cast<std::int64_t>(statements_.size());
     if (++calls_ % kCallsPerPoll == 0 && limits_.stop_requested()) steps_ = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lower bound for all agents from lower bounds for groups: weighted vertex cover on a hypergraph.
+// Lower bound on the cost of all agents from lower bounds for groups: weighted vertex cover on a
+// hypergraph.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +13,20 @@
 
 namespace grove::detail {
 
-// The statement that `agents` together cost at least `excess` more than they do now.
+// Statement that `agents` together cost at least `excess` more than the sum of their individual
+// costs.
 struct GroupExcess {
   std::vector<AgentIndex> agents;
   Cost excess = 0;  // positive; kInfiniteCost: there is no plan for these agents
 };
 
-// Returns a lower bound on how much more all agents together cost: the least sum of nonnegative
-// integers, one per agent, that fulfils every statement. If all statements are about pairs, this is
-// a weighted vertex cover (Li et al., IJCAI 2019). Returns exactly this sum unless more than
-// `steps` statements must be examined, or the sum is in the hundreds, or a limit is reached; then
-// it is still a valid bound, but may be smaller. At most kInfiniteCost. Depends only on the
-// arguments `statements` and `steps`, unless a limit is reached.
+// Returns a lower bound on how much more all agents together cost than the sum of their individual
+// costs. This is the least sum of nonnegative integers, one per agent, such that the integers of
+// each statement's agents add up to at least its excess. If all statements are about pairs, this is
+// a weighted vertex cover (Li et al., IJCAI 2019). The result is this sum unless more than `steps`
+// statements must be examined, the sum is in the hundreds, or a limit is reached. In these cases it
+// can be smaller, but it is still a valid bound. At most kInfiniteCost. Unless a limit is reached,
+// the result depends only on `statements` and `steps`.
 Cost covering_bound(std::span<const GroupExcess> statements, std::int64_t steps = 100'000,
                     const Limits& limits = Limits());
 

@@ -16,15 +16,15 @@
 
 namespace grove::detail {
 
-// Weights (*excesses*) of pairs and groups of agents, keyed by the agents' subproblems: a lower
-// bound on the cost of the agents together, minus the sum of their individual costs. A subproblem
-// is an agent with its order of visits and its set of constraints; subproblem_table.h
-// numbers it. The key of a group is its agents in ascending order and their
+// Weights (*excesses*) of pairs and groups of agents, keyed by the agents' subproblems. An excess
+// is a lower bound on the joint cost of the agents minus the sum of their individual costs. A
+// subproblem is an agent with its sequence class and its set of constraints; subproblem_table.h
+// numbers the subproblems. The key of a group consists of its agents in ascending order and their
 // subproblems. Thread-safe.
 //
-// A group is *listed* under its rarest subproblem, because few nodes look that one up. The list
-// also stores the next rarest: most groups that do not apply to a node already differ from it
-// there.
+// A group is *listed* under its rarest subproblem, because few nodes look up that subproblem. The
+// list entry also stores the second rarest subproblem. Most groups that do not apply to a node
+// already differ from it in that subproblem.
 class DependencyTable {
  public:
   using Id = SubproblemTable::Id;
@@ -32,29 +32,30 @@ class DependencyTable {
   struct ExcessBound {
     Cost excess = 0;              // proven lower bound
     bool exact = false;           // conflict-free paths with this excess exist
-    std::int32_t expansions = 0;  // effort spent on it
+    std::int32_t expansions = 0;  // node expansions spent on it
     friend bool operator==(const ExcessBound&, const ExcessBound&) = default;
   };
-  // Several agents, in ascending order.
+  // Three or more agents, in ascending order, with their subproblems.
   struct Group {
     std::vector<AgentIndex> agents;
     std::vector<Id> subproblems;
     ExcessBound known;
 
-    // Does the group apply to a node whose subproblems are `now`, by AgentIndex?
+    // Returns whether the group applies to a node with the subproblems `now`, by AgentIndex.
     bool is_at(const std::vector<Id>& now) const {
       return std::ranges::equal(subproblems, agents, {}, {},
                                 [&](AgentIndex agent) { return now[agent]; });
     }
   };
-  // The other agent of a pair with positive excess.
+  // The second agent of a pair with positive excess.
   struct Partner {
     AgentIndex agent;
     Id subproblem;
     Cost excess;
   };
 
-  // The conjunction of two entries. It is commutative, so the order of merges does not matter.
+  // Conjunction of two entries for the same key. It is commutative and associative, so the order of
+  // merges does not matter.
   static ExcessBound join(ExcessBound a, ExcessBound b) {
     return {std::max(a.excess, b.excess), a.exact || b.exact, std::max(a.expansions, b.expansions)};
   }
@@ -62,19 +63,22 @@ class DependencyTable {
   // `subproblems` numbers the subproblems and must outlive this object.
   explicit DependencyTable(const SubproblemTable& subproblems) : subproblems_(subproblems) {}
 
+  // The entry of a pair, or ExcessBound() if there is none. `first` is the subproblem of the agent
+  // with the smaller index.
   ExcessBound of_pair(Id first, Id second) const;
-  // `agent` is the agent of `second`. merge_pair() and merge_group() return true if the table
+  // `agent` is the agent of `second`. merge_pair() and merge_group() return whether the table
   // changed.
   bool merge_pair(Id first, Id second, AgentIndex agent, ExcessBound known);
-  // Appends the partners of greater index with which the agent of `first` has positive excess.
+  // Appends the agents of greater index that have a positive excess with the agent of `first`.
   void partners(Id first, std::vector<Partner>& partners) const;
 
+  // The entry of a group, or ExcessBound() if there is none.
   ExcessBound of_group(const std::vector<Id>& subproblems) const;
   bool merge_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& subproblems,
                    ExcessBound known);
   // Calls use(group) once for each group that applies to a node with the subproblems `now`, by
-  // AgentIndex. `use` must not call this object, and must copy what it keeps. Returns the number of
-  // groups that were compared in full.
+  // AgentIndex. `use` runs under a lock: it must not call this object, and it must copy whatever it
+  // keeps. Returns the number of groups that were compared in full.
   template <class Use>
   std::int64_t groups_at(const std::vector<Id>& now, Use use) const {
     std::int64_t looked_at = 0;
@@ -99,7 +103,8 @@ class DependencyTable {
     Id second;
     ExcessBound known;
   };
-  // Lists of items by subproblem. The subproblems of a part have consecutive places.
+  // One list of items for each subproblem. Within a part, the positions of subproblems are
+  // consecutive.
   template <class Item>
   class Lists {
    public:
@@ -118,13 +123,13 @@ class DependencyTable {
       return static_cast<std::size_t>(subproblem) / Sharded<int>::kParts;
     }
 
-    std::vector<std::int32_t> list_;  // by place: index in lists_; -1 if there is no list
+    std::vector<std::int32_t> list_;  // by position: index in lists_; -1 if there is no list
     std::vector<std::vector<Item>> lists_;
   };
   struct ListedGroup {
-    AgentIndex agent;  // the one with the next rarest subproblem
+    AgentIndex agent;  // the agent with the second rarest subproblem
     Id subproblem;
-    std::int32_t number;
+    std::int32_t number;  // index in all_groups
   };
   struct Part {
     std::vector<Pair> pairs;
@@ -140,13 +145,15 @@ class DependencyTable {
     std::size_t bytes() const;
   };
 
-  // Calls what(part), which returns whether the part changed, and updates bytes_.
+  // Calls what(part) for the part of `under` and updates bytes_. `what` returns whether it changed
+  // the part; merge() returns the same.
   template <class What>
   bool merge(Id under, What what);
 
-  // The places, in `subproblems`, of a group's rarest subproblem and of the next rarest: those with
-  // the most bytes of constraints. (Not the newest: a subproblem received from another process is
-  // new here, but need not be rare.) Ties go to the larger number, which is about the newer one.
+  // Positions in `subproblems` of the rarest and the second rarest subproblem of a group. A
+  // subproblem counts as rarer if its constraints take more bytes. (Its age would be misleading: a
+  // subproblem received from another process is new here but need not be rare.) Ties go to the
+  // larger number, which usually belongs to the newer subproblem.
   std::array<std::size_t, 2> rarest_two(const std::vector<Id>& subproblems) const;
 
   const SubproblemTable& subproblems_;

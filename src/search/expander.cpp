@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Expansion of a node: Algorithm 1 of the paper, lines 9-22. Validates the node's paths. If they
-// conflict, first tries to raise the node's bound: a node whose bound rises returns to the
-// frontier, where other nodes may now be better. Otherwise branches.
+// Expansion of a node: Algorithm 1 of the paper, lines 9-22. Finds the conflicts of the node's
+// paths; if there are none, the node yields a plan. Otherwise it first tries to raise the node's
+// bound: a node whose bound rises returns to the frontier, where other nodes may now be better. If
+// the bound does not rise, the node is split.
 #include "search/expander.h"
 
 #include <algorithm>
@@ -116,7 +117,8 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
   return expansion;
 }
 
-// A branch without a child holds no plan cheaper than the cutoff.
+// Logs the split. A branch without a child gets the cost `cutoff`, because it holds no plan cheaper
+// than the cutoff.
 void Expander::log_proof(const Branching& branching, const NodePtr& node,
                          std::span<const NodePtr> children, Cost cutoff) {
   const Split& split = branching.split;
@@ -133,7 +135,7 @@ bool Expander::help(const NodePtr& node, Cost cutoff, double share, const Limits
   return dependencies_.help(node, view_, cutoff, share, limits);
 }
 
-// The plan that consists of the view's paths, which are conflict-free.
+// The plan that consists of the paths in the view, which are conflict-free.
 Plan Expander::plan(const Node& node) {
   Plan plan;
   for (AgentIndex i = 0; i < problem_.instance.agent_count(); ++i) {

@@ -3,20 +3,20 @@
 //
 // *Reach.* An agent cannot visit or rest on a place that is unreachable from its start.
 //
-// *Order.* An agent visits one of any two required places first, so the other must be reachable
-// from it; and its destination must be reachable from all required places. (Where every step can be
-// undone, this follows from *Reach*. If it holds for all pairs, there is an order in which the
-// agent, without the others, can visit all places: any order that is compatible with reachability.)
+// *Order.* Of any two required places an agent visits one first, so the other must be reachable
+// from it. Its destination must be reachable from all required places. (Where every step can be
+// undone, this follows from *Reach*. If the condition holds for all pairs, an agent that ignores
+// the others can visit all places, in any order that is compatible with reachability.)
 //
 // *Rest.* Agents rest on different cells for ever: a CTS agent on its destination, an MG agent on
-// one of its own tasks. (An idle agent may rest anywhere, and there is always a place left for it.)
-// If the bipartite graph of agents and resting cells has no matching that covers every agent, there
-// is no plan (Hall 1935). The matching is computed with augmenting paths.
+// one of its own tasks. (An idle agent can rest anywhere, and a place for it is always left.) If
+// the bipartite graph of agents and resting cells has no matching that covers every agent, there is
+// no plan (Hall 1935). The matching is computed with augmenting paths.
 //
-// *Corridor.* In a component that is a simple path agents cannot pass each other: two adjacent
-// agents would have to share a cell or swap. So the order along the corridor never changes. An
-// agent with r agents on one side is never nearer than r cells to that end, and the destinations
-// lie in the order of the starts.
+// *Corridor.* In a component that is a simple path, agents cannot pass each other, because two
+// adjacent agents would have to share a cell or swap. Their order along the corridor therefore
+// never changes. An agent with r agents between itself and one end is always at least r cells from
+// that end, and the destinations lie in the order of the starts.
 //
 // *Pebble motion.* See pebble_motion.cpp.
 #include "search/feasibility.h"

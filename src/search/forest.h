@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Interface: creates the constraint trees of a run.
+// Interface for the creation of the constraint trees of a run.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace grove::detail {
 
-// The constraint trees of a run, instantiated one by one on request. Together they hold every plan.
-// The implementation decides what a tree fixes: see sequence_forest.h and single_tree.h. Must
+// The constraint trees of a run, which are instantiated one by one on request. Together they hold
+// every plan. The implementation decides what a tree fixes (sequence_forest.h, single_tree.h). Must
 // outlive the nodes of its trees. One thread at a time.
 class Forest {
  public:
@@ -18,13 +18,14 @@ class Forest {
   Forest& operator=(const Forest&) = delete;
   virtual ~Forest() = default;
 
-  // A proven lower bound on every plan of every tree not yet instantiated; kInfiniteCost if all are
-  // instantiated.
+  // A proven lower bound on every plan of every tree not yet instantiated; kInfiniteCost if all
+  // trees are instantiated.
   virtual Cost next_bound() const = 0;
-  // The root of the next tree; nullptr if there is none or a limit was reached.
+  // Instantiates the next tree and returns its root. Returns nullptr if there is none or a limit
+  // was reached.
   virtual NodePtr next_root() = 0;
 
-  // Sequencing problems solved so far.
+  // Number of sequencing problems solved so far.
   virtual std::int64_t rtsp_calls() const = 0;
 };
 

@@ -2,19 +2,20 @@
 // Eviction of open nodes when memory is short, and why the bound stays valid.
 //
 // evict() drops the worst open nodes. Let E be the least bound of a dropped node. *Claim:
-// min(bounds of live nodes, E) is a lower bound on every plan that was ever pushed.* A plan of a
-// dropped node is in no live node, but it costs at least its node's bound, hence at least E. This
-// bound cannot rise above E: an empty frontier proves E and no more, unless the incumbent costs at
-// most E, because then the dropped nodes could as well have been pruned.
+// min(bounds of live nodes, E) is a lower bound on every plan of the pushed nodes that is not in a
+// pruned node.* A plan of a dropped node is in no live node, but it costs at least the bound of
+// that node, hence at least E. This bound cannot rise above E: an empty frontier proves E and no
+// more, unless the incumbent costs at most E, because then the dropped nodes could as well have
+// been pruned.
 //
-// *Restart.* When no node is live but some were dropped, the caller restarts from the roots. By
-// then every plan of these trees is known to cost at least E, or at least as much as the incumbent.
-// So in the second run a node ranks by max(bound, E). Nodes below E only have to be re-expanded.
-// They are taken newest first (depth first), so that only about as many are open as the tree is
-// deep, and the memory is left to the nodes above E, of which the best are kept again. If the nodes
-// of one single bound exceed the memory, each run raises the bound by one. This is iterative
-// deepening (Korf 1985): where each bound has twice as many nodes as the one before, the last run
-// costs more than all earlier runs together.
+// *Restart.* When no node is live but some were dropped, the caller restarts from the roots. Every
+// plan of these trees is then known to cost at least E, or at least as much as the incumbent. In
+// the second run a node therefore ranks by max(bound, E). Nodes with a bound below E only have to
+// be re-expanded. They are taken newest first (depth first), so that only about as many nodes are
+// open as the tree is deep. This leaves the memory to the nodes above E, of which the best are kept
+// again. If the nodes of one single bound exceed the memory, each run raises the bound by one. This
+// is iterative deepening (Korf 1985): if each bound has twice as many nodes as the previous one,
+// the last run costs more than all earlier runs together.
 #include "search/frontier.h"
 
 #include <algorithm>
@@ -30,8 +31,8 @@ void Frontier::push(NodePtr node) {
   push_locked(std::move(node));
 }
 
-// Order of nodes of one rank, for heaps with the best node in front: returns whether `a` is worse
-// than `b`.
+// Order of the nodes of one rank, for heaps with the best node in front. The function returns
+// whether `a` is worse than `b`.
 auto Frontier::order_in(Cost rank) const {
   return [newest_first = rank == proven_](const Open& a, const Open& b) {
     const auto conflicts = [](const Open& open) { return open.node->conflicts(); };
@@ -85,8 +86,8 @@ NodePtr Frontier::take_locked(std::map<Cost, std::vector<Open>>::iterator best) 
   return node;
 }
 
-// Takes from the last half of each heap, which holds its leaves: each is worse than all its
-// ancestors, so this approximates the worse half.
+// Takes from the second half of each heap, which consists of leaves. Each leaf is no better than
+// all its ancestors, so this approximates the worse half.
 std::vector<NodePtr> Frontier::take_for_transfer(std::size_t count, bool keeps_next) {
   const std::lock_guard lock(mutex_);
   std::vector<NodePtr> spare;
@@ -167,7 +168,7 @@ Cost Frontier::evicted_bound() const {
   return evicted_bound_;
 }
 
-// Atomic, because in between there would be neither nodes nor a bound.
+// Atomic: between the two changes there would be neither nodes nor an evicted bound.
 void Frontier::restart(std::span<const NodePtr> roots, Cost proven) {
   const std::lock_guard lock(mutex_);
   GROVE_ASSERT(open_.empty() && taken_.empty(), "a restart while a node is live");

@@ -17,12 +17,12 @@ namespace grove::detail {
 
 // Best-first queue: least bound, then fewest conflicts, then newest (depth first on plateaus). A
 // taken node counts as live until complete(), so bound() is valid while any number of workers
-// expand. When memory is short, evict() drops nodes: bound() keeps their least bound, and restart()
-// searches again from the roots. The proof is at the head of frontier.cpp. Thread-safe; each method
-// holds one mutex. push() and take() find the bound in O(log(distinct bounds)) and the node in
-// O(log(open nodes of that bound)); methods on many nodes hold the mutex for as long as it takes to
-// find them. If an entry cannot be allocated, throws std::bad_alloc and loses no node: a taken node
-// stays taken and counts in bound().
+// expand nodes. When memory is short, evict() drops nodes: bound() keeps their least bound, and
+// restart() searches again from the roots. The proof is at the head of frontier.cpp. Thread-safe;
+// each method holds one mutex. push() and take() find the bound in O(log(distinct bounds)) and the
+// node in O(log(open nodes of that bound)); methods that process many nodes hold the mutex until
+// they are done. If an entry cannot be allocated, a method throws std::bad_alloc and loses no node:
+// a taken node stays taken and counts in bound().
 class Frontier {
  public:
   void push(NodePtr node);
@@ -42,23 +42,24 @@ class Frontier {
   void complete(const NodePtr& node);
   // Returns a taken node to the open nodes, unexpanded.
   void reinsert(NodePtr node);
-  // Drops every open node whose bound is at least `bound`, the cost of an incumbent. Returns the
-  // number of dropped nodes.
+  // Drops every open node whose bound is at least `bound`, the cost of an incumbent, and disregards
+  // evicted nodes if their least bound is that high. Returns the number of open nodes dropped.
   std::size_t prune(Cost bound);
 
   // Drops the worst `count` open nodes, but none of the best `keep`, and returns the dropped nodes.
-  // Their plans are then in no live node; bound() keeps the least of their bounds.
+  // Afterwards no live node holds their plans, so bound() includes the least of their bounds.
   std::vector<NodePtr> evict(std::size_t count, std::size_t keep = 0);
-  // The least bound of the nodes evicted and not pruned since; kInfiniteCost if there is none.
+  // The least bound of the nodes that were evicted since the last restart and not pruned;
+  // kInfiniteCost if there is none.
   Cost evicted_bound() const;
   // Restarts the search after evictions: resets evicted_bound() and pushes `roots`, the roots of
-  // all trees from which nodes were evicted. `proven` is evicted_bound(), or its minimum over
-  // several frontiers. Requires that no node is live and that every tree not yet instantiated costs
-  // at least `proven`. From then on the nodes whose bound is at most `proven` are taken first,
+  // all trees from which nodes were evicted. `proven` is evicted_bound() or, for several frontiers,
+  // the least of theirs. Requires that no node is live and that every tree not yet instantiated
+  // costs at least `proven`. From then on nodes whose bound is at most `proven` are taken first,
   // newest first.
   void restart(std::span<const NodePtr> roots, Cost proven);
 
-  // All live nodes and the least bound of evicted nodes, at one moment.
+  // All live nodes and the least bound of evicted nodes, taken at the same moment.
   struct Snapshot {
     std::vector<NodePtr> live;
     Cost evicted_bound = kInfiniteCost;
@@ -67,15 +68,15 @@ class Frontier {
   // Records that a node of bound `bound` was evicted elsewhere; bound() takes it into account.
   void record_evicted_bound(Cost bound);
 
-  // Empties the frontier without releasing its nodes. For use when their pool is about to be
-  // destroyed: releasing millions of nodes one by one takes seconds.
+  // Empties the frontier without releasing its nodes. Call it when their pool is about to be
+  // destroyed, because releasing millions of nodes one by one takes seconds.
   void abandon();
 
   // The least bound of all live nodes (open or taken) and evicted nodes; kInfiniteCost if there is
   // none.
   Cost bound() const;
   std::size_t open() const;
-  // The number of open nodes of each bound, for the `max_count` least bounds.
+  // The number of open nodes for each of the `max_count` least bounds.
   struct Level {
     Cost bound = 0;
     std::int64_t open = 0;
@@ -84,6 +85,7 @@ class Frontier {
   std::vector<Level> levels(std::size_t max_count) const;
   // The number of live nodes: open or taken.
   std::size_t live() const;
+  // True if no node is live and bound() includes no evicted node.
   bool empty() const { return bound() == kInfiniteCost; }
 
  private:
@@ -101,7 +103,7 @@ class Frontier {
   mutable std::mutex mutex_;
   std::map<Cost, std::vector<Open>> open_;  // heaps, by rank
   std::map<Cost, std::size_t> taken_;       // number of taken nodes of each rank
-  std::vector<NodePtr> in_progress_;        // the taken nodes; few
+  std::vector<NodePtr> in_progress_;        // the taken nodes, which are few
   Cost evicted_bound_ = kInfiniteCost;
   Cost proven_ = -1;  // bound proven before the last restart; -1 if there was no restart
   std::size_t open_count_ = 0;

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Why these decisions are sound, whatever the order in which nodes are expanded.
+// Why the decisions of GlobalBounds are sound, in whatever order nodes are expanded.
 //
 // Every plan belongs to a tree (the class of its joint sequence). In an instantiated tree it
-// belongs to a live node, to a pruned one, or to one that was replaced by children which together
-// hold every plan it held (no split loses a plan, see brancher.cpp). So at every moment each plan
-// is (a) in a live node, (b) in a tree not yet instantiated, or (c) in a node that was pruned by an
-// incumbent of cost at most the node's bound. A plan of kind (a) costs at least min(live bounds),
-// of kind (b) at least the next tree's bound, of kind (c) at least the incumbent. *Claim: min(live,
-// next tree, incumbent) is a lower bound on every plan.* Each such minimum was valid when it was
-// computed, so the largest so far is valid too.
+// belongs to a live node, to an evicted or pruned node, or to a node that was replaced by children
+// which together hold every plan of that node (no split loses a plan, see brancher.cpp). So at
+// every moment each plan is (a) in a live or evicted node, (b) in a tree not yet instantiated, or
+// (c) in a node that was pruned by an incumbent of cost at most the node's bound. A plan of kind
+// (a) costs at least the least bound of these nodes, of kind (b) at least the next tree's bound, of
+// kind (c) at least the incumbent. *Claim: the minimum of these three is a lower bound on every
+// plan.* Each such minimum was valid when it was computed, so the largest so far is valid too.
 //
 // *Bounds proven outside the trees* (joint search, Lagrangian bound) hold for every plan, or for
-// every plan cheaper than an incumbent that was checked here before. Then min(that bound,
-// incumbent) is a lower bound on every plan, and so is the largest of all such bounds.
+// every plan cheaper than an incumbent that was checked here before. In both cases min(that bound,
+// incumbent) is a lower bound on every plan, and so is the largest of all these minima.
 //
 // *Stopping* at incumbent <= (1 + w) * lower bound is the definition of w-suboptimality. If nothing
 // of kind (a) or (b) is left, the bound is the incumbent itself; without an incumbent there is no
 // plan at all.
 //
-// *New trees.* Algorithm 4 of the paper instantiates the next tree when the popped cost exceeds
-// (1 + w) times the cost of the last one. This only delays trees and proves nothing: the proof is
-// the lower bound above. The paper's "OPEN is empty" must mean that no live node exists at all, the
-// popped one included; otherwise every instance would get a needless second root. With w = inf only
-// the first tree is ever built (S-CBS).
+// *New trees.* Algorithm 4 of the paper instantiates the next tree when the cost of the popped node
+// exceeds (1 + w) times the cost of the last tree. This only delays trees and proves nothing; the
+// proof is the lower bound above. The paper's "OPEN is empty" must mean that there is no live node
+// at all, including the popped one; otherwise every instance would get an unnecessary second root.
+// With w = inf only the first tree is ever instantiated (S-CBS).
 #include "search/global_bounds.h"
 
 #include <fmt/format.h>

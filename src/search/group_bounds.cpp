@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Group bounds that travel with nodes.
+// Group bounds that are sent together with nodes.
 //
 // *Problem.* A rank that receives a node without the cached bounds of its pairs has to compute all
-// of them again. This is as much work as at the root, whereas the expansion of the node's parent
-// left only one or two pairs to examine. With many workers that expand few nodes each, this would
-// be most of their work. So a node is sent with the bounds that are known about it (*findings*).
+// of them again. This takes as much effort as at the root, whereas the expansion of the node's
+// parent left only one or two pairs to examine. With many workers that expand few nodes each, this
+// would be most of their effort. A node is therefore sent with the bounds that are known for it
+// (*findings*).
 //
 // *Claim: a finding holds at the receiver as it does at the sender.* It is a statement about agents
 // under sets of constraints and about nothing else, and both sides have the same constraints; see
 // wdg_heuristic.cpp. The receiver numbers subproblems differently, so a finding names its agents
-// and a node instead.
+// and a node instead of subproblem numbers.
 #include "search/group_bounds.h"
 
 #include <algorithm>

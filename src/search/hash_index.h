@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Hash index: finds entries of a list by their content. For tables with millions of small entries:
-// 11 to 21 bytes per entry in addition to the entry itself, no allocation per entry, and mostly one
-// cache line for an unsuccessful search.
+// Hash index: finds the entries of a list by their content. It is made for tables with millions of
+// small entries: it takes 11 to 21 bytes per entry in addition to the entry itself, allocates
+// nothing per entry, and mostly reads one cache line in an unsuccessful search.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,9 @@
 
 namespace grove::detail {
 
-// Maps hashes to numbers of entries: open addressing, at most three quarters full. The user stores
-// the entries, in the order of their numbers. Entries are never removed. One thread at a time.
+// Maps hashes to numbers of entries: open addressing, at most three quarters full. The caller
+// stores the entries in the order of their numbers. Entries are never removed. One thread at a
+// time.
 class HashIndex {
  public:
   using Number = std::int32_t;
@@ -28,9 +29,11 @@ class HashIndex {
     return kNone;
   }
 
-  // Reserves space for one more entry. May throw std::bad_alloc; the next add() then does not.
+  // Reserves space for one more entry, so that the next add() does not throw. May itself throw
+  // std::bad_alloc.
   void reserve_one();
-  // Adds an entry that is not in the index. Its number is the size() before the call.
+  // Adds an entry that is not in the index and returns its number, which is size() before the call.
+  // Call reserve_one() first.
   Number add(std::uint32_t hash);
 
   Number size() const { return size_; }

@@ -4,20 +4,20 @@
 // `max_excess` more than its path at the node (joint/time_expanded_graphs.h). *Claim: in every plan
 // that satisfies the node's constraints the group costs at least the computed bound.* *Proof.* In
 // such a plan no two paths of the group collide. If all its paths are in the graphs, they cost at
-// least the bound of the joint search, however early that ends. Otherwise one agent costs over
-// `max_excess` more than its path at the node. The paths at the node are cheapest under the node's
-// constraints, so no other agent costs less than its path there, and the group costs at least
-// `max_excess` + 1 more. The constraints are those of the agents' subproblems (subproblem_table.h);
-// the result does not depend on the other agents.
+// least the bound of the joint search, even if that search ends early. Otherwise one agent costs
+// over `max_excess` more than its path at the node. The paths at the node are cheapest under the
+// node's constraints, so no other agent costs less than its path there, and the group costs at
+// least `max_excess` + 1 more. The constraints are those of the agents' subproblems
+// (subproblem_table.h); the result does not depend on other agents.
 //
-// Graphs grow with `max_excess`, and most groups have a small excess. So `max_excess` begins small
-// and its distance to the known excess doubles.
+// Graphs grow with `max_excess`, and most groups have a small excess. So `max_excess` starts close
+// to the known excess, and its distance from it doubles in each round.
 //
 // *Where it helps.* Splits solve nearly all pairs of agents that neither turn nor execute tasks,
-// and few of the others. *Measured* on room-32-32-4 with 40 agents: joint search also for groups
-// whose pairs must cost more already needs 6 % fewer nodes in 1.6 times the time (for groups of at
-// most four agents 1 % fewer in 1.1 times). Joint search in place of splits: 5 % more nodes in 1.7
-// times the time.
+// and few of the other pairs. *Measured* on room-32-32-4 with 40 agents: if joint search is also
+// applied to groups with pairs that must cost more already, it needs 6 % fewer nodes in 1.6 times
+// the time (for groups of at most four agents 1 % fewer nodes in 1.1 times the time). Joint search
+// in place of splits needs 5 % more nodes in 1.7 times the time.
 #include "search/joint_groups.h"
 
 #include <algorithm>

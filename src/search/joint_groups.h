@@ -13,20 +13,21 @@
 
 namespace grove::detail {
 
-// A* over the joint states of a group, for groups whose conflicts splitting does not resolve. The
-// argument is at the head of joint_groups.cpp. One thread at a time.
+// Bounds the excess of groups whose conflicts splits do not resolve, by A* over joint states. The
+// proof is at the head of joint_groups.cpp. One thread at a time.
 class JointGroups {
  public:
   using ExcessBound = DependencyTable::ExcessBound;
 
-  // All arguments must outlive this. `planner` may be shared with others of the same thread.
+  // All arguments must outlive this object. `planner` may be shared with other objects of the same
+  // thread.
   JointGroups(const Instance& instance, const Tuning& tuning, PathPlanner& planner)
       : instance_(instance), tuning_(tuning), planner_(planner) {}
 
-  // Raises `known`, the excess of the agents `group`: by how much they cost more together, under
-  // the constraints of the node of `view`, than their paths there. The agents are in the scope of
-  // `view` and in ascending order. Stops at an excess above `slack`. Returns false if a limit was
-  // reached.
+  // Raises `known`, the excess of the agents `group` over their paths at the node of `view`, under
+  // the constraints of that node. The agents are in the scope of `view` and in ascending order.
+  // Stops at an excess above `slack`. Does nothing for more than Tuning::joint_group_agents agents.
+  // Returns false if a limit was reached.
   bool solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
              const Limits& limits, ExcessBound& known);
 
@@ -44,7 +45,7 @@ class JointGroups {
   PathPlanner& planner_;
   std::int64_t states_ = 0;
   std::int64_t joint_work_ = 0;
-  std::int64_t abort_at_ = 0;  // a value of work()
+  std::int64_t abort_at_ = 0;  // value of work() at which to abort
 };
 
 }  // namespace grove::detail

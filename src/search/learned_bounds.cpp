@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // *Claim: a learned bound holds in every process of the run.* *Proof.* It depends only on agents,
 // their sequence classes and their constraint sets. It depends neither on a node nor on an
-// incumbent: a search that ended at a cutoff leaves the bound that it had proven by then, which
+// incumbent: a search that ends at a cutoff leaves the bound that it has proven by then, which
 // holds for any cutoff (child_costs.cpp, wdg_heuristic.cpp). A tree number stands for the same
 // sequence classes in every process of a run, and constraints are values. The number of a
 // subproblem differs between processes and is not sent.
 //
-// *Consequence.* Learned bounds may arrive late, twice, in any order or never. Only the running
-// time depends on it.
+// *Consequence.* Learned bounds can arrive late, twice, in any order or never. This affects only
+// the running time.
 #include "search/learned_bounds.h"
 
 #include <algorithm>
@@ -21,9 +21,9 @@ namespace grove::detail {
 namespace {
 
 constexpr std::size_t kBytesPerConstraint = 6;  // approximate
-// Weight of a positive excess: it raises bounds, while an excess of 0 only saves a computation.
-// Measured with 128 ranks on room-32-32-4 with 40 agents: search overhead 38 % with weight 1, 36 %
-// with weight 4 and with weight 16.
+// Weight of a positive excess, which raises bounds, whereas an excess of 0 only saves a
+// computation. *Measured* with 128 ranks on room-32-32-4 with 40 agents: search overhead 38 % with
+// weight 1, 36 % with weight 4 and with weight 16.
 constexpr double kPositiveExcessWeight = 4;
 
 std::size_t bytes_of_constraints(const LearnedBound& fact) {
@@ -32,7 +32,7 @@ std::size_t bytes_of_constraints(const LearnedBound& fact) {
   return sum;
 }
 
-// Collects the learned bounds whose agents all belong to trees in the index.
+// Collects the learned bounds all of whose agents belong to trees in the index.
 class Facts {
  public:
   Facts(const SharedCache& memory, const TreeIndex& trees) : memory_(memory), trees_(trees) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Learned bounds on agents and groups, as values that mean the same in every process of a run.
+// Learned bounds on agents and groups, as values with the same meaning in every process of a run.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +31,7 @@ struct LearnedBound {
   SubproblemTable::CostBound cost;       // if there is one agent
   DependencyTable::ExcessBound excess;   // if there are several
 
-  // Expected benefit of sending this bound. It rises with the expansions that the bound took, is
+  // Expected benefit of sending this bound. It rises with the expansions spent on the bound, is
   // higher if the excess is positive, and falls with the size of the constraints, because
   // subproblems with few constraints recur more often.
   double utility() const;
@@ -40,9 +40,10 @@ struct LearnedBound {
 // Index of the trees that learned bounds refer to. One thread at a time.
 class TreeIndex {
  public:
-  // `tree` must outlive this.
+  // `tree` must outlive this object.
   void add(const Tree& tree);
-  // Return nullptr if there is no such tree here.
+  // of(): a tree that contains `order`. numbered(): the tree with this number. Each returns nullptr
+  // if the index has no such tree.
   const Tree* of(const AgentSequencing& order) const;
   const Tree* numbered(std::uint32_t number) const;
 
@@ -51,14 +52,14 @@ class TreeIndex {
   std::map<std::uint32_t, const Tree*> by_number_;
 };
 
-// Converts new entries of `memory` to learned bounds. Leaves out those of trees that are not in
-// `trees`.
+// Converts new entries of `memory` to learned bounds. Omits bounds that refer to a tree that is not
+// in `trees`.
 std::vector<LearnedBound> learned_bounds_of(const NewEntries& news, const SharedCache& memory,
                                             const TreeIndex& trees);
 
-// Merges a learned bound into `memory`, or ignores it if its tree is not in `trees`. Throws
-// std::invalid_argument, and changes nothing, if the bound is impossible: no agent, an agent that
-// does not exist, or agents that are not in ascending order.
+// Merges a learned bound into `memory`, or ignores it if one of its trees is not in `trees`. Throws
+// std::invalid_argument, and merges nothing, if the bound is impossible: it has no agent, an agent
+// that does not exist, agents that are not in ascending order, or a negative cost or excess.
 void merge(LearnedBound fact, const TreeIndex& trees, SharedCache& memory);
 
 }  // namespace grove::detail

@@ -14,23 +14,23 @@
 
 namespace grove::detail {
 
-// MDDs of the subproblems that were requested recently, in two generations. An MDD is *young* if it
-// was requested since the last trim() that took effect, *old* if it was requested only between that
-// one and the one before. Thread-safe.
+// MDDs of recently requested subproblems, in two generations. An MDD is *young* if it was requested
+// since the last trim() that took effect. It is *old* if its last request was between that trim()
+// and the previous one that took effect. Thread-safe.
 class MddCache {
  public:
   using Set = std::shared_ptr<const Mdd>;
 
-  // Size of the young generation at which trim() takes effect, in bytes. Measured by simulation on
-  // room-32-32-4 with 40 agents, scenario 4: three times as much saves 2 % of the work and takes
-  // 1.6 times the memory.
+  // Size of the young generation at which trim() takes effect, in bytes. *Measured* by simulation
+  // on room-32-32-4 with 40 agents, scenario 4: three times this size saves 2 % of the effort and
+  // takes 1.6 times the memory.
   static constexpr std::size_t kMaxYoungBytes = std::size_t{16} << 20;
   explicit MddCache(std::size_t max_young_bytes = kMaxYoungBytes)
       : max_young_bytes_(max_young_bytes) {}
 
-  // Returns nullptr if it is not cached.
+  // Returns nullptr if the MDD is not cached.
   Set find(SubproblemTable::Id id) const;
-  // Adds the MDD of a requested subproblem, or marks it as young.
+  // Adds the MDD of a requested subproblem as young; an old MDD becomes young.
   void add(SubproblemTable::Id id, const Set& set);
 
   // Builds the MDD of the subproblem (`agent`, `order`, `constraints`), whose least cost is `cost`.
@@ -40,7 +40,8 @@ class MddCache {
                   std::span<const Constraint> constraints, Time cost, std::size_t max_nodes,
                   const Limits& limits);
 
-  // If the young generation is too large, drops the old one and makes the young one old.
+  // If the young generation has reached its limit, drops the old generation and makes the young one
+  // old.
   void trim();
 
   // Memory in use, in bytes (approximate).

@@ -54,8 +54,8 @@ std::size_t Node::bytes() const {
   return sizeof(Node) + words * sizeof(std::uint64_t);
 }
 
-// Releases ancestors without other owners in a loop. Recursion would need a stack as deep as the
-// tree.
+// Releases the node and then, in a loop, ancestors that have no other owner. Recursion would need a
+// stack as deep as the tree.
 void Node::release(const Node* node) {
   while (node && node->references_.fetch_sub(1, std::memory_order_acq_rel) == 1) {
     const Node* parent = node->parent_.get();

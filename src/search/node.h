@@ -23,16 +23,17 @@
 namespace grove::detail {
 
 // What a tree fixes about one agent: its sequence class, and its shortest path without other
-// agents. Immutable; shared by all trees that fix the same.
+// agents. Trees that fix the same for an agent share one object. Immutable: any thread may read it.
 struct AgentSequencing {
-  SequenceClass sequences;            // in the paper's forest a complete prefix
-  std::optional<GoalSequence> goals;  // of a complete prefix; nullopt: the low level chooses
-  PackedPath path;                    // shortest for `sequences` without constraints
+  SequenceClass sequences;            // in the paper's forest: a complete prefix
+  std::optional<GoalSequence> goals;  // of a complete prefix; nullopt: free order
+  PackedPath path;                    // a shortest one for `sequences`, without constraints
 };
 
-// One tree of the forest: a class of joint task sequences. Immutable; must outlive its nodes.
+// One tree of the forest, which holds the plans of one class of joint task sequences. Immutable:
+// any thread may read it. Must outlive its nodes.
 struct Tree {
-  const World* world = nullptr;  // of its agents
+  const World* world = nullptr;  // world of the agents
   NodePool* pool = nullptr;      // owns the memory of its nodes
   std::uint32_t number = 0;      // from 0, in the order of instantiation
   std::vector<std::shared_ptr<const AgentSequencing>> orders;  // by AgentIndex
@@ -40,12 +41,13 @@ struct Tree {
 
 class Node;
 
-// Shared ownership of a node. Different threads may copy and destroy their own NodePtr of one node.
+// Shared ownership of a node. Different threads may copy and destroy different NodePtr objects of
+// one node concurrently.
 class NodePtr {
  public:
   NodePtr() = default;
   NodePtr(std::nullptr_t) {}
-  explicit NodePtr(const Node* node);  // shares
+  explicit NodePtr(const Node* node);  // shares ownership
   NodePtr(const NodePtr& other) : NodePtr(other.node_) {}
   NodePtr(NodePtr&& other) noexcept : node_(std::exchange(other.node_, nullptr)) {}
   NodePtr& operator=(NodePtr other) noexcept {
@@ -81,20 +83,21 @@ struct NodeDelta {
   AgentConstraint added;           // agent -1: no constraint
   std::span<const NewPath> paths;  // of the agents whose path changes
   Cost cost = 0;                   // sum of the costs of all paths at the child
-  Cost bound = 0;                  // proven for all plans that satisfy the child's constraints
-  std::uint32_t conflicts = 0;     // among its paths: how far it is from a plan
-  bool bounded = false;            // its bound was raised by the WDG heuristic: do not run it again
+  Cost bound = 0;                  // lower bound on all plans that satisfy the child's constraints
+  std::uint32_t conflicts = 0;     // among its paths, approximate: estimates the distance to a plan
+  bool bounded = false;            // the WDG heuristic has raised its bound and is not run again
 };
 
-// A node of a constraint tree (CBS; Sharon et al. 2015): its parent's constraints, at most one
-// additional constraint, and the paths that changed, which are packed behind the object. A
-// constraint kRestBy of one agent bars all others from the cell from its `end` on. Immutable: any
-// thread may read it. Allocated in its tree's pool; about 150 bytes if paths have 150 steps.
+// A node of a constraint tree (CBS; Sharon et al. 2015). It inherits its parent's constraints and
+// paths, and stores at most one additional constraint and the paths that changed. These are packed
+// behind the object. A kRestBy constraint on one agent also bars all other agents from the cell
+// from its `end` on. Allocated in its tree's pool; about 150 bytes if paths have 150 steps.
+// Immutable: any thread may read it.
 class Node {
  public:
   // The root of `tree`, without constraints.
   static NodePtr root(const Tree& tree);
-  // A child of `parent`. Its bound is the maximum of its parent's bound, change.cost and
+  // A child of `parent`. Its bound is the maximum of the parent's bound, change.cost and
   // change.bound.
   static NodePtr child(const NodePtr& parent, const NodeDelta& change);
 
@@ -105,17 +108,17 @@ class Node {
   Cost bound() const { return bound_; }
   // Sum of the costs of the paths at this node.
   Cost cost() const { return cost_; }
-  // See NodeDelta.
+  // As in NodeDelta.
   std::uint32_t conflicts() const { return conflicts_; }
   bool is_bounded() const { return bounded_; }
   const Tree& tree() const { return *tree_; }
   bool is_root() const { return !parent_; }
-  // nullptr at the root.
+  // The parent; nullptr at the root.
   const Node* parent() const { return parent_.get(); }
-  // The constraint that it adds to its parent's; agent -1: none.
+  // The constraint that this node adds to those of its parent; agent -1: none.
   const AgentConstraint& added() const { return added_; }
-  // Calls visit(agent, packed steps) for each path that differs from the parent's. The steps are
-  // valid as long as the node exists.
+  // Calls visit(agent, packed steps) for each path that differs from the parent's. The packed steps
+  // are valid as long as the node exists.
   template <class Visit>
   void for_each_path(Visit visit) const {
     const auto* word = reinterpret_cast<const std::uint64_t*>(this + 1);
@@ -133,12 +136,13 @@ class Node {
              std::vector<Path>& paths) const;
   // Appends the constraints on `agent` at this node. O(depth).
   void constraints(AgentIndex agent, std::vector<Constraint>& constraints) const;
-  // The same for all agents. Resizes `constraints` to the number of agents and overwrites it.
+  // Sets constraints[agent] to the constraints on each agent at this node. Resizes `constraints` to
+  // the number of agents.
   void constraints(std::vector<std::vector<Constraint>>& constraints) const;
 
  private:
   friend class NodePtr;
-  // Before each packed path.
+  // Header in front of each packed path.
   struct PathHead {
     AgentIndex agent;
     std::uint32_t steps;
@@ -161,7 +165,7 @@ class Node {
 
   mutable std::atomic<std::uint32_t> references_{0};
   std::uint32_t path_count_;
-  mutable NodePtr parent_;  // null at the root
+  mutable NodePtr parent_;  // nullptr at the root
   const Tree* tree_;
   Cost bound_;
   Cost cost_;
@@ -178,7 +182,7 @@ inline NodePtr::~NodePtr() {
   if (node_) Node::release(node_);
 }
 
-// The goals of an agent that visits all its stops in this order; see GoalSequence.
+// The goals of `agent` if it visits all its stops in the order `sequence`; see GoalSequence.
 GoalSequence goals_in_order(const Problem& problem, AgentIndex agent, const Sequence& sequence);
 
 }  // namespace grove::detail

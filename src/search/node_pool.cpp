@@ -18,7 +18,7 @@ void* NodePool::allocate(std::size_t bytes) {
   return memory;
 }
 
-// The rest of a chunk that is too small for the next node is lost: less than 1 %.
+// If the rest of a chunk is too small for the next node, it is lost: less than 1 %.
 void* NodePool::take_small(std::size_t size_class) {
   if (Free* block = free_[size_class]) {
     free_[size_class] = block->next;

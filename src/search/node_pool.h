@@ -12,14 +12,15 @@
 
 namespace grove::detail {
 
-// Allocator of nodes. Memory is released node by node during the search, and all at once when it
-// ends. This avoids millions of destructor calls between a limit and the answer. Must outlive every
-// use of its nodes. Thread-safe.
+// Allocator of constraint-tree nodes. During the search nodes are released one by one; when the
+// search ends, the pool frees all of them at once. This avoids millions of destructor calls between
+// a limit and the answer. The pool must outlive every use of its nodes. Thread-safe.
 //
-// Blocks are cut from chunks in steps of 8 bytes, without headers. A released block is reused for
-// the next node of its size, because nodes have few different sizes and these do not change over
-// time. No memory returns to the system before the pool is destroyed. So after an eviction the
-// resident set stays the same while bytes() falls: control memory by bytes().
+// Small blocks are cut from chunks; their sizes are multiples of 8 bytes and they have no headers.
+// A released block is reused for the next node of its size, because nodes have few different sizes,
+// and the mix of sizes stays the same over time. Chunks return to the system only when the pool is
+// destroyed. After an eviction, therefore, bytes() falls but the resident set does not: control
+// memory by bytes().
 class NodePool {
  public:
   NodePool() = default;
@@ -37,7 +38,7 @@ class NodePool {
 
  private:
   static constexpr std::size_t kStep = 8;
-  static constexpr std::size_t kMaxSmallBytes = 1024;
+  static constexpr std::size_t kMaxSmallBytes = 1024;  // bytes; larger blocks come from large_
   struct Free {
     Free* next;
   };
@@ -46,7 +47,7 @@ class NodePool {
 
   mutable std::mutex mutex_;
   std::vector<std::unique_ptr<std::byte[]>> chunks_;
-  std::byte* rest_ = nullptr;  // of the last chunk
+  std::byte* rest_ = nullptr;  // unused part of the last chunk
   std::size_t rest_bytes_ = 0;
   std::array<Free*, kMaxSmallBytes / kStep + 1> free_{};  // by size / kStep
   std::pmr::unsynchronized_pool_resource large_;

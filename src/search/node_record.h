@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Serializable constraint-tree node without its ancestors.
+// Serializable constraint-tree node that does not refer to its ancestors.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace grove::detail {
 
-// All constraints, paths and bounds of a node, and the number of its tree. A value.
+// All constraints of a node, its paths and bounds, and the number of its tree. A value.
 struct NodeRecord {
   struct Walk {
     AgentIndex agent = -1;
@@ -19,8 +19,8 @@ struct NodeRecord {
   };
 
   std::uint32_t tree = 0;                    // number of its tree
-  std::vector<AgentConstraint> constraints;  // from the root downwards
-  std::vector<Walk> paths;                   // those that differ from the root's, by agent
+  std::vector<AgentConstraint> constraints;  // in order of depth, from the root down
+  std::vector<Walk> paths;                   // those that differ from the root's, in order of agent
   Cost cost = 0;
   Cost bound = 0;
   std::uint32_t conflicts = 0;
@@ -28,15 +28,16 @@ struct NodeRecord {
   friend bool operator==(const NodeRecord&, const NodeRecord&) = default;
 };
 
-// O(depth + length of the paths).
+// Converts a node to a record. O(depth + total length of the paths).
 NodeRecord record_of(const Node& node);
 
-// Throws std::invalid_argument if the record cannot be one of this instance: an agent or place that
-// does not exist, a path that is no walk, a bound below the root's or below its cost.
+// Throws std::invalid_argument if `record` cannot belong to `instance`: it names an agent or place
+// that does not exist, or has a path that is not a walk, or a bound below the root's bound or below
+// its own cost.
 void check(const NodeRecord& record, const Node& root, const Instance& instance);
 
-// Recreates the node below the root of its tree, or below the root of a tree that fixes the same.
-// Its new ancestors hold only its constraints. Throws as check() does.
+// Recreates the node below `root`, the root of its tree or of a tree that fixes the same. The nodes
+// between them are new and hold only the node's constraints. Throws as check() does.
 NodePtr node_of(const NodeRecord& record, const NodePtr& root, const Instance& instance);
 
 }  // namespace grove::detail

@@ -25,7 +25,8 @@ void NodeView::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
   find_conflicts();
 }
 
-// Updates only agents whose constraints differ from those at the last node; most have the same.
+// Updates only agents whose constraints differ from those at the last node. Most agents have the
+// same constraints at both.
 void NodeView::update_constraints() {
   node_->constraints(constraints_);
   for (auto* by_agent : {&agent_cache_.node_constraints, &agent_cache_.constraints})

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Encodes each constraint as four numbers: kind and cell, place of departure, begin, end. Each
-// number takes 7 bits per byte; its last byte has the high bit clear.
+// Encodes each constraint as four numbers: kind and cell, place of departure, begin, end. A number
+// is stored with 7 bits per byte; only its last byte has the high bit clear.
 //
-// *Claim: different lists have different bytes.* *Proof.* Each number determines where it ends and,
-// together with the numbers before it, the value that it encodes. So the list can be decoded from
-// its bytes; the test does so.
+// *Claim: different lists have different bytes.* *Proof.* The bytes of a number show where it ends
+// and, together with the numbers before it, determine the value that it encodes. So the list can be
+// decoded from its bytes; the unit test does so.
 #include "search/packed_constraints.h"
 
 #include <array>

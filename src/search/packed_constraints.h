@@ -10,14 +10,14 @@
 
 namespace grove::detail {
 
-// Appends `constraints` to `bytes`. Each constraint is encoded as the difference from the one
-// before, which is short in canonical order (subproblem_table.h). Two lists are equal if and only
-// if their bytes are equal.
+// Appends `constraints` to `bytes`. Each constraint is encoded as the difference from the previous
+// one, which is short in canonical order (subproblem_table.h). Two lists are equal if and only if
+// their bytes are equal.
 void pack(std::span<const Constraint> constraints, std::string& bytes);
 
-// Result of pack(), to be compared, stored and sent. It cannot be unpacked here.
+// Result of pack(), which can be compared, stored and sent. It cannot be unpacked.
 struct PackedConstraints {
-  PackedConstraints() = default;  // none
+  PackedConstraints() = default;  // no constraints
   explicit PackedConstraints(std::span<const Constraint> constraints) { pack(constraints, bytes); }
 
   std::string bytes;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Encoding of steps. Code 0 is a wait. On a plain grid the other codes are offsets of the cell
-// number, so that the map need not be read. Elsewhere code k + 1 is move k of the state.
+// number, so that decoding does not read the map. In other worlds, code k + 1 is move k of the
+// state.
 #include "search/packed_path.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Compressed paths, as constraint-tree nodes store them: 3 bits per step if no state has more than
-// 7 moves, otherwise as many as needed. The start is not stored; it is that of the agent.
+// 7 moves, otherwise as many as needed. The start is not stored, because it is the start of the
+// agent.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +13,7 @@
 namespace grove::detail {
 
 // View of a packed path of `steps` steps. A word holds 21 steps of 3 bits, or fewer steps of more
-// bits, the first step in the lowest bits. Valid as long as the words are.
+// bits, with the first step in the lowest bits. Valid as long as the words are.
 struct PackedSteps {
   std::uint32_t steps = 0;
   const std::uint64_t* words = nullptr;
@@ -21,8 +22,8 @@ struct PackedSteps {
   Time cost() const { return static_cast<Time>(steps); }
   // Overwrites `path`, which keeps its capacity.
   void unpack(const World& world, State start, Path& path) const;
-  // Tests whether the steps are a walk in this world. Steps packed by pack() are; test all others
-  // before unpack().
+  // Tests whether the steps are a walk from `start` in this world. Steps that pack() wrote always
+  // are; test all others before unpack().
   bool is_walk(const World& world, State start) const;
 };
 

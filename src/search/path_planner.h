@@ -17,26 +17,27 @@
 
 namespace grove::detail {
 
-// Plans one agent under an AgentSequencing. If the sequence is fixed, the path visits its goals in
-// order; otherwise the low level chooses the sequence. One thread at a time; reuse it.
+// Plans one agent under an AgentSequencing. If the sequence is fixed, the path visits the goals in
+// order; otherwise the low level chooses the sequence. Keeps its workspace between calls, so reuse
+// it. One thread at a time.
 class PathPlanner {
  public:
-  // `problem` and `stops` must outlive this. `stops` may be shared with others of the same thread.
-  // `free` plans where the sequence is free; nullptr: Grove's own low level. `repeatable`: the
-  // number of labels that a call expands does not depend on earlier calls.
+  // `problem` and `stops` must outlive this object. `stops` may be shared with other objects of the
+  // same thread. `free` plans agents whose sequence is free; nullptr: Grove's own low level.
+  // `repeatable`: the number of labels that a call expands does not depend on earlier calls.
   PathPlanner(const Problem& problem, AgentStopsCache& stops,
               std::unique_ptr<AgentPlanner> free = nullptr, bool repeatable = false);
 
-  // As AgentPlanner::find(). The query holds the agent's constraints.
+  // Like AgentPlanner::find(). `query` holds the agent's constraints.
   PathOutcome find(AgentIndex agent, const AgentSequencing& order, PathQuery query,
                    const Limits& limits, Path& path);
 
-  // As MddBuilder::build().
+  // Like MddBuilder::build().
   MddBuilder::Outcome mdd(AgentIndex agent, const AgentSequencing& order,
                           std::span<const Constraint> constraints, Time cost, std::size_t max_nodes,
                           const Limits& limits, Mdd& paths);
 
-  // As TimeExpandedGraphs::make().
+  // Like TimeExpandedGraphs::make().
   TimeExpandedGraphs::Outcome timed_graph(AgentIndex agent, const AgentSequencing& order,
                                           std::span<const Constraint> constraints, Time max_cost,
                                           std::size_t max_nodes, const Limits& limits,
@@ -46,7 +47,7 @@ class PathPlanner {
   // `order` allows.
   Sequence sequence(AgentIndex agent, const AgentSequencing& order, const Path& path);
 
-  // Calls of find() so far, and labels that they expanded.
+  // Number of calls of find() so far, and of the labels that these expanded.
   std::int64_t calls() const { return calls_; }
   std::int64_t expanded() const { return fixed_.expanded() + free_->expanded(); }
   // MDD nodes built so far.
@@ -66,7 +67,7 @@ class PathPlanner {
   TimeExpandedGraphs timed_;
   AgentStopsCache& stops_;
   bool repeatable_;
-  std::vector<std::unique_ptr<SequenceStages>> free_goals_;  // by AgentIndex, of the last class
+  std::vector<std::unique_ptr<SequenceStages>> free_goals_;  // by AgentIndex, for its last class
 };
 
 }  // namespace grove::detail

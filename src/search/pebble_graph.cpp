@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Computes blocks by depth-first search (Hopcroft and Tarjan 1973). An edge outside the depth-first
-// tree joins a node with one of its ancestors. It lies in the block of the edge from the lower node
-// to its parent. So does the tree edge itself: each edge counts for the block of its lower end. The
-// tree edges of a block connect all of it, so the block is bipartite if each of its other edges
-// joins a node of even depth and one of odd depth.
+// tree joins a node with one of its ancestors. It lies in the same block as the tree edge from the
+// deeper of the two nodes to its parent. Each edge, whether in the tree or not, is therefore
+// counted for the block of its deeper end. The tree edges of a block connect all of it, so the
+// block is bipartite if each of its other edges joins a node of even depth and one of odd depth.
 #include "search/pebble_graph.h"
 
 #include <algorithm>
@@ -71,9 +71,9 @@ void PebbleGraph::number(const World& world, Place root) {
   }
 }
 
-// Runs backwards, so that a node is complete before its parent.
+// The second loop runs backwards, so that each node is complete before its parent.
 void PebbleGraph::find_blocks() {
-  std::vector<PebbleNode> highest(size());  // least node adjacent to the subtree
+  std::vector<PebbleNode> highest(size());  // by node: least node adjacent to its subtree
   for (PebbleNode node = 0; node < size(); ++node) {
     highest[node] = node;
     for (const PebbleNode other : neighbors(node))

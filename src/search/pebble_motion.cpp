@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 // A *configuration* ("arrangement" in names) states which agent is on which place. Every step of a
-// plan transforms one configuration into another, by moves that the world allows in at least one
-// direction; here a move counts as allowed in both. The configurations reachable from a
+// plan transforms one configuration into another by moves that the world allows; here a move counts
+// as allowed in both directions if it is allowed in one. The configurations reachable from a
 // configuration do not depend on headings, task execution or earlier steps. *Claim: there is no
 // plan if, from the configuration of the starts (reach.h),*
 // - some agent must visit a place, or has a goal, on which it is in no reachable configuration; or
 // - all agents have goals and the configuration of the goals is not reachable.
 //
-// *Converse.* If every step can be undone and all agents have goals, a plan exists otherwise.
-// Configurations in which the agents are on their tasks can be visited one after the other, and the
-// configuration of the goals last. In between, each agent turns or executes its task as needed
-// before any other agent continues.
+// *Converse.* If every step can be undone and all agents have goals, a plan exists in all other
+// cases. The agents can pass, one after the other, through configurations in which they are on
+// their tasks, and reach the configuration of the goals last. In between, each agent turns or
+// executes its task as needed before any other agent continues.
 //
-// *Shortcut.* The test examines all places, so it is skipped where there is room: if at least k + 3
-// places of a connected component have three neighbours or more, where k is the number of agents.
-// *Proof.* With m free places the component has at most k + m places. A path between crossings on
-// which an agent may be stuck, or which may separate groups (reach_with_room.cpp), has at least m -
-// 2 places with two neighbours. That leaves at most k + 2 others.
+// *Shortcut.* The test examines all places, so it is skipped for a connected component with enough
+// room: one in which at least k + 3 places have three or more neighbours, where k is the number of
+// agents. *Proof.* With m free places the component has at most k + m places. A path between
+// crossings on which an agent may be stuck, or which may separate groups (reach_with_room.cpp), has
+// at least m - 2 places with two neighbours. That leaves at most k + 2 others.
 #include "search/pebble_motion.h"
 
 #include <fmt/format.h>
@@ -41,8 +41,8 @@ class Parts {
         enough_(instance.agent_count() + 3),
         known_(static_cast<std::size_t>(world_.place_count()), Room::kUnknown) {}
 
-  // Returns true if `place` is the first place seen of a component without enough room. Then `part`
-  // holds all places of the component.
+  // Returns true if `place` is the first place examined of a component without enough room. In this
+  // case `part` holds all places of the component.
   bool is_tight(Place place, std::vector<Place>& part) {
     part.clear();
     if (known(place) != Room::kUnknown) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Presolve test by pebble motion: detects that too few places are free for agents to pass each
+// Presolve test by pebble motion: detects that too few places are free for the agents to pass each
 // other.
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace grove::detail {
 
 // Returns a sentence that explains why the instance has no plan, or nullopt if this test cannot
-// prove it. If every step can be undone, every agent has a goal, and each place is connected with
+// prove that. If every step can be undone, every agent has a goal, and each place is connected with
 // the starts of the agents that must visit it, nullopt means that a plan exists.
 std::optional<std::string> pebble_motion_infeasibility(const Instance& instance);
 

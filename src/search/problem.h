@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Read-only data that all parts of the search share.
+// Read-only data shared by all parts of the search.
 #pragma once
 
 #include "model/distance_field.h"
@@ -9,12 +9,12 @@
 
 namespace grove::detail {
 
-// An instance with its distance fields and its corridors. Immutable: any thread may read it. It
-// must outlive the search. Use it only if distances.complete().
+// An instance with its distance fields and its corridors. Must outlive the search. Use it only if
+// distances.complete(). Immutable: any thread may read it.
 struct Problem {
-  // `threads`: number of threads that compute the distances. `known`: distances of an earlier
-  // problem to share, or nullptr. `arrays`: arrays of array_layout() in memory shared with other
-  // processes, or nullptr. All must outlive this.
+  // `threads`: number of threads that compute the distances. `known`: distance fields of an earlier
+  // problem to share, or nullptr. `arrays`: arrays of array_layout() in memory that is shared with
+  // other processes, or nullptr. `the_instance`, `known` and `arrays` must outlive this object.
   Problem(const Instance& the_instance, const Limits& limits, int threads = 1,
           const DistanceFields* known = nullptr, const SharedArrays* arrays = nullptr)
       : instance(the_instance),

@@ -10,28 +10,29 @@
 
 namespace grove::detail {
 
-// By node of a graph: the agent there, or kNoAgent.
+// For each node of a graph: the agent on it, or kNoAgent.
 using PebbleConfiguration = std::vector<AgentIndex>;
 inline constexpr AgentIndex kNoAgent = -1;
 
-// The configurations reachable from one configuration, at any cost and by any moves of the agents.
+// The configurations that are reachable from a start configuration by any moves of the agents, at
+// any cost.
 class ReachableConfigurations {
  public:
   virtual ~ReachableConfigurations() = default;
-  // Is there one in which the agent that is on `from` now is on `to`?
+  // Returns whether some reachable configuration has on `to` the agent that starts on `from`.
   virtual bool has(PebbleNode from, PebbleNode to) const = 0;
-  // Is this configuration reachable? It must have the same agents.
+  // Returns whether this configuration is reachable. It must have the same agents as the start.
   virtual bool has(const PebbleConfiguration& arrangement) const = 0;
 };
 
-// Computes what is reachable from `start`. `board` must outlive the result. If a node is free, the
-// board's root must be free.
+// Computes the configurations that are reachable from `start`. `board` must outlive the result. If
+// a node is free, the root of `board` must be free. `may_follow`: see Instance.
 std::unique_ptr<ReachableConfigurations> reach_of(const PebbleGraph& board,
                                                   const PebbleConfiguration& start,
                                                   bool may_follow);
 
-// The two cases of reach_of(). The arguments are at the heads of reach_with_room.cpp (with room)
-// and reach_without_room.cpp (without).
+// The two cases of reach_of(). The proofs are at the heads of reach_with_room.cpp and
+// reach_without_room.cpp.
 std::unique_ptr<ReachableConfigurations> reachable_with_room(const PebbleGraph& board,
                                                              const PebbleConfiguration& start,
                                                              bool may_follow);

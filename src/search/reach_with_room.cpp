@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Reachable configurations of pebble graphs on which agents have room to change their order.
 //
-// *Problem.* m nodes are free: at least two, or at least one if agents may follow each other; and
-// the graph is not a ring. Which configurations can be reached? (Pebble motion: Kornhauser, Miller
-// and Spirakis 1984; with rotations: Yu and Rus 2014. The decomposition of the graph follows Push
-// and Rotate, de Wilde, ter Mors and Witteveen 2014.)
+// *Problem.* m nodes are free, m >= 2, or m >= 1 if agents may follow each other. The graph is not
+// a ring. Which configurations can be reached? (Pebble motion: Kornhauser, Miller and Spirakis
+// 1984; with rotations: Yu and Rus 2014. The decomposition of the graph follows Push and Rotate, de
+// Wilde, ter Mors and Witteveen 2014.)
 //
-// *Definitions.* Agents change their order at *crossings*: regions of nodes on rings, and single
-// nodes with three or more neighbours. With two free nodes at a crossing any two agents there can
-// change places. One free node suffices on a ring if agents may follow each other: all go round,
-// with one agent more or fewer than at first. So a crossing has a *need* of 1 or 2 free nodes. The
-// crossings are connected by *ways* of nodes with two neighbours each.
+// *Definitions.* Agents change their order at *crossings*, which are regions of nodes on rings, and
+// single nodes with three or more neighbours. With two free nodes at a crossing any two agents
+// there can change places. One free node suffices on a ring if agents may follow each other: all
+// agents on the ring go round while it holds one agent more or fewer than at first. So a crossing
+// has a *need* of 1 or 2 free nodes. The crossings are connected by *ways*, which are paths of
+// nodes with two neighbours each.
 //
 // Consider an agent on a way, t steps from the crossing at the beginning of the way, with b free
 // nodes on that side of it. While the agent is on the way (including that crossing), t - b is
@@ -29,16 +30,17 @@
 //
 // *Consequence.* This proves which configurations are unreachable.
 //
-// *Converse* (no answer of Grove relies on it): all others are reachable. Where a way has
-// d <= m + 2 - (sum of both needs), the crossings at its ends are one for their agents. Joining
-// crossings along such ways gives sets of crossings. The *group* of a set consists of the agents
-// that are not stuck as seen from some crossing of it. A group can be arranged in any order on the
-// nodes that it has: every arrangement of the free nodes can be reached, and two agents of the
-// group can be brought to a crossing together, change places, and all agents be brought back.
+// *Converse* (no answer of Grove relies on it): all other configurations are reachable. Where a way
+// has d <= m + 2 - (sum of both needs), the crossings at its ends act as one crossing for their
+// agents. Joining crossings along such ways gives sets of crossings. The *group* of a set consists
+// of the agents that are not stuck as seen from some crossing of the set. A group can be arranged
+// in any order on the nodes that it has: every arrangement of the free nodes can be reached, and
+// two agents of the group can be brought to a crossing together, change places, and all agents be
+// brought back.
 //
-// *Reachable nodes.* A group reaches the nodes of its crossings, and the nodes of ways from there
-// with t <= m + 1 - need, because b <= m. A stuck agent always has the same number of agents on
-// either side; it reaches the nodes that leave room for 0 to m free nodes on one side.
+// *Reachable nodes.* A group reaches the nodes of its crossings and, on the ways from there, the
+// nodes with t <= m + 1 - need, because b <= m. A stuck agent always has the same number of agents
+// on either side; it reaches the nodes that leave room for 0 to m free nodes on one side.
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -61,7 +63,7 @@ struct Way {
   PebbleNode before_end() const { return nodes.size() > 1 ? nodes[nodes.size() - 2] : from; }
 };
 
-// The part of the analysis that depends on the graph and the number of free nodes only.
+// The part of the analysis that depends only on the graph and the number of free nodes.
 class Crossings {
  public:
   Crossings(const PebbleGraph& board, int free, bool may_follow)
@@ -85,13 +87,13 @@ class Crossings {
   int need(PebbleNode crossing) const { return may_follow_ && board_.is_on_ring(crossing) ? 1 : 2; }
   // The number of the set of joined crossings that contains `crossing`; it identifies the group.
   PebbleNode group(PebbleNode crossing) const { return joined_[crossing]; }
-  // The max distance from `crossing` of an agent that is not stuck as seen from it.
+  // The maximum distance from `crossing` of an agent that is not stuck as seen from it.
   int max_steps(PebbleNode crossing) const { return free_ + 1 - need(crossing); }
   bool is_reached(PebbleNode group_there, PebbleNode node) const {
     return (is_crossing(node) && group(node) == group_there) ||
            std::ranges::binary_search(near_, std::pair(node, group_there));
   }
-  // Whether `way` is the one of its two directions that is used.
+  // Ways between crossings exist in both directions. Returns whether `way` is the direction in use.
   bool is_first(const Way& way) const { return !is_between(way) || way.from < way.nodes.back(); }
 
  private:
@@ -161,10 +163,10 @@ class Membership {
 
   // The group of the agent on `node`; kStuck if the agent is stuck or the node is free.
   PebbleNode group(PebbleNode node) const { return groups_[node]; }
-  // By way: the nodes of the agents that are stuck on it, in order.
+  // For each way: the nodes of the agents that are stuck on it, in order.
   const std::vector<std::vector<PebbleNode>>& queues() const { return queues_; }
-  // The number of free nodes on the side of the crossing at the beginning of the way, that crossing
-  // included.
+  // The number of free nodes on the side of the crossing at the beginning of `way`, including that
+  // crossing.
   int free_before(const Way& way) const {
     return way.from == PebbleGraph::kNone
                ? 0
@@ -175,8 +177,8 @@ class Membership {
  private:
   const PebbleGraph& board() const { return crossings_.board(); }
 
-  // Whether the agent on the crossing `node` is stuck on the way that begins with `next`: all free
-  // nodes are on that side.
+  // Returns whether the agent on the crossing `node` is stuck on the way that starts with `next`,
+  // which is so if all free nodes are on that side.
   bool is_held_by(PebbleNode node, PebbleNode next) const {
     return crossings_.need(node) == 2 && board().is_bridge(node, next) &&
            board().beyond(node, next, free_) == crossings_.free();
@@ -225,7 +227,7 @@ std::vector<std::pair<AgentIndex, PebbleNode>> groups_of(const PebbleConfigurati
   return groups;
 }
 
-// The stuck agents in order, by way.
+// For each way: the agents that are stuck on it, in order.
 std::vector<std::vector<AgentIndex>> queues_of(const PebbleConfiguration& arrangement,
                                                const Membership& membership) {
   std::vector<std::vector<AgentIndex>> queues;
@@ -264,8 +266,9 @@ class ReachWithRoom : public ReachableConfigurations {
   }
 
  private:
-  // The way of a node that is no crossing, or of the agent that is stuck on a crossing; and the
-  // number of nodes of the graph before the node, as seen along the way.
+  // For a node that is no crossing, its way; for an agent that is stuck on a crossing, the way on
+  // which it is stuck. Also the number of nodes of the graph that come before the node, as seen
+  // along the way.
   struct Spot {
     std::size_t way = 0;
     int nodes_before = 0;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Reachable configurations on graphs without room: a single cycle ("ring"), a graph whose nodes are
-// all occupied, or one with a single free node where agents may not follow each other.
+// all occupied, or a graph with a single free node on which agents may not follow each other.
 //
 // On a ring no agent passes another. If all nodes are occupied, the only steps are rotations of
-// whole cycles. These cross no bridge, so each region between bridges is a graph of its own. If one
-// node is free and agents may not follow, the free node moves, and the change that its closed walk
-// makes lies in single blocks. With the free node at the root, the agents of a block stay on its
-// nodes other than the one nearest to the root.
+// whole cycles. These use no bridge, so each region between bridges can be treated as a separate
+// graph. If one node is free and agents may not follow, only the free node moves. When it returns
+// to its place, it has changed the order only within single blocks. With the free node at the root,
+// the agents of a block stay on the nodes of that block other than the one nearest to the root.
 //
-// In such a part:
+// In such a region or block:
 // - On a ring the cyclic order of the agents is invariant.
-// - Where every cycle has odd length, or, with a free node, even length, each rotation is an even
-//   permutation of the configuration. So half of the configurations are not reachable.
+// - If every cycle has odd length or, with a free node, even length, each rotation is an even
+//   permutation of the configuration. Half of the configurations are therefore not reachable.
 // - Parts of up to seven nodes are searched exhaustively.
 // - In all others every configuration that is not excluded so far counts as reachable. (Wilson 1974
 //   for one free node, with a single exception, on seven nodes; Yu and Rus 2014 and Yang 2011 for
@@ -42,7 +42,7 @@ bool same_agents(std::vector<AgentIndex> a, std::vector<AgentIndex> b) {
   return a == b;
 }
 
-// Tests whether both are the same cyclic order.
+// Tests whether both are the same cyclic order, free nodes aside.
 bool are_in_the_same_order(std::vector<AgentIndex> a, std::vector<AgentIndex> b) {
   std::erase(a, kNoAgent);
   std::erase(b, kNoAgent);
@@ -67,7 +67,7 @@ bool is_even(const std::vector<AgentIndex>& a, const std::vector<AgentIndex>& b)
   return even;
 }
 
-// A few nodes, all or all but one occupied: searches all reachable configurations.
+// A few nodes, of which at most one is free. Searches all reachable configurations.
 class SmallPart {
  public:
   SmallPart(const PebbleGraph& board, std::vector<PebbleNode> nodes) : nodes_(std::move(nodes)) {
@@ -98,7 +98,7 @@ class SmallPart {
   }
 
  private:
-  // Finds the cycles whose first node is their least.
+  // Finds the cycles on which the first node has the least number.
   void find_cycles(std::vector<std::size_t>& way) {
     for (const std::size_t next : neighbors_[way.back()]) {
       if (next == way.front() && way.size() > 2) circles_.push_back(way);
@@ -178,7 +178,7 @@ class OneFreeReach : public ReachableConfigurations {
       std::swap(arrangement[free], arrangement[board_.parent(free)]);
     return arrangement;
   }
-  // The free node enters the block by the block's first node.
+  // The free node enters the block at the block's first node.
   bool has(const PebbleGraph::Block& block, const PebbleConfiguration& then) const {
     const std::vector<PebbleNode> others(block.nodes.begin() + 1, block.nodes.end());
     const auto a = agents_on(others, start_);

@@ -18,8 +18,8 @@
 
 namespace grove::detail {
 
-// Results of one worker that are not in the shared cache yet. A value; the subproblem numbers are
-// those of one SharedCache.
+// Results of one worker that are not in the shared cache yet. Its subproblem numbers are valid for
+// one SharedCache. A value.
 struct CacheDelta {
   using Id = SubproblemTable::Id;
   struct Pair {
@@ -29,13 +29,13 @@ struct CacheDelta {
     DependencyTable::ExcessBound known;
   };
   std::unordered_map<Id, SubproblemTable::CostBound> costs;
-  std::unordered_map<Id, MddCache::Set> sets;  // all that were requested
-  // Searched linearly, because there are few at a time.
+  std::unordered_map<Id, MddCache::Set> sets;  // all that the worker requested
+  // `pairs` and `groups` are searched linearly, because they hold few entries at a time.
   std::vector<Pair> pairs;
   std::vector<DependencyTable::Group> groups;
 };
 
-// Entries added to a SharedCache since the last call of take_new_entries(); see CacheDelta. A
+// Entries that were added to a SharedCache or improved since the last call of take_new_entries(). A
 // value.
 struct NewEntries {
   std::vector<std::pair<SubproblemTable::Id, SubproblemTable::CostBound>> costs;
@@ -43,28 +43,27 @@ struct NewEntries {
   std::vector<DependencyTable::Group> groups;
 };
 
-// Cache of all workers in this process. Thread-safe. Entries of subproblems and excesses are never
-// removed: to drop them, the caller replaces the whole cache by a new one.
+// Cache shared by all workers of this process. Entries of subproblems and excesses are never
+// removed; to drop them, the caller replaces the whole cache by a new one. Thread-safe.
 struct SharedCache {
   SharedCache() = default;
-  // Tag: the new cache replaces one that was full.
+  // Tag: the new cache replaces a full one.
   struct Successor {};
   explicit SharedCache(Successor /*successor*/) : follows_another(true) {}
 
   SubproblemTable subproblems;
   MddCache path_sets;
   DependencyTable excesses{subproblems};
-  // If true, an earlier cache was full, so results in this one may be dropped before they are of
-  // use.
+  // If true, an earlier cache was full, so this one may be dropped as well before its results are
+  // used.
   const bool follows_another = false;
   // Unique among all caches of this process.
   const std::int64_t number = next_number();
 
-  // Merges the results of one worker. The result does not depend on the order in which workers do
-  // so.
+  // Merges the results of one worker. The order in which workers merge does not matter.
   void merge(const CacheDelta& found);
-  // Returns the entries that merge() added or improved since the last call. Recording begins with
-  // the first call.
+  // Returns the entries that merge() has added or improved since the last call. Recording starts
+  // with the first call, which returns nothing.
   NewEntries take_new_entries();
 
   // Drops MDDs if there are too many; they can be computed again.
@@ -79,15 +78,15 @@ struct SharedCache {
   NewEntries news_;
 };
 
-// Cache of one worker: the shared cache, and the worker's own results that are not shared yet.
-// Results of other workers do not reach it before they are merged into the shared cache. So a
-// worker that is given the same shared cache again does the same work, whatever the others do
-// concurrently. One thread at a time.
+// Cache of one worker: the shared cache, and the worker's own results that are not shared yet. The
+// worker does not see results of other workers before they are merged into the shared cache.
+// Therefore a worker that starts again from the same shared cache repeats the same computations,
+// whatever other workers compute concurrently. One thread at a time.
 class WorkerCache {
  public:
   using Id = SubproblemTable::Id;
 
-  // `planner` must outlive this. An MDD of more than `max_set_nodes` nodes is not built.
+  // `planner` must outlive this object. MDDs of more than `max_set_nodes` nodes are not built.
   WorkerCache(PathPlanner& planner, std::shared_ptr<SharedCache> common, std::int64_t max_set_nodes)
       : planner_(planner), common_(std::move(common)), max_set_nodes_(max_set_nodes) {}
 
@@ -95,33 +94,33 @@ class WorkerCache {
   // in the shared cache.
   CacheDelta take_delta() { return std::exchange(found_, {}); }
   // Uses this shared cache from now on. If it is a different one, results that were not taken are
-  // dropped, and all subproblem numbers become invalid.
+  // dropped and all subproblem numbers become invalid.
   void use_shared_cache(std::shared_ptr<SharedCache> common);
   const std::shared_ptr<SharedCache>& common() const { return common_; }
-  // Number of the shared cache: subproblem numbers stay valid as long as it is the same.
+  // Number of the shared cache. Subproblem numbers stay valid as long as this number is the same.
   std::int64_t numbering() const { return common_->number; }
 
-  // As the methods of SubproblemTable.
+  // id(), known() and merge(): like the methods of SubproblemTable.
   Id id(AgentIndex agent, const AgentSequencing& order, std::span<const Constraint> constraints) {
     ++asked_;
     return common_->subproblems.id(agent, order, constraints);
   }
-  // Subproblem queries so far, and groups that were examined for an answer.
+  // Number of subproblem queries so far, and of groups compared in full or looked up.
   std::int64_t asked() const { return asked_; }
   std::int64_t groups_asked() const { return groups_asked_; }
-  // MDD queries so far, and those of them that the cache could answer.
+  // Number of MDD queries so far, and of those that the cache answered.
   std::int64_t mdd_queries() const { return sets_asked_; }
   std::int64_t mdd_hits() const { return sets_known_; }
   SubproblemTable::CostBound known(Id id) const;
   void merge(Id id, SubproblemTable::CostBound known) { found_.costs[id] = known; }
 
-  // MDD of a subproblem, built if it is not cached; empty if it would be too large. Returns nullptr
-  // if a limit was reached. Valid until take_delta().
+  // The MDD of a subproblem, which is built if it is not cached; empty if it would be too large.
+  // Returns nullptr if a limit was reached. Valid until take_delta().
   const Mdd* paths(Id id, AgentIndex agent, const AgentSequencing& order,
                    std::span<const Constraint> constraints, Time cost, const Limits& limits);
 
-  // As the methods of DependencyTable. Partners and groups come in any order and possibly
-  // repeatedly.
+  // Like the methods of DependencyTable. partners() and groups_at() return entries in any order,
+  // possibly repeatedly.
   DependencyTable::ExcessBound of_pair(Id first, Id second) const;
   void merge_pair(Id first, Id second, AgentIndex agent, DependencyTable::ExcessBound known);
   void partners(Id first, std::vector<DependencyTable::Partner>& partners) const;

@@ -9,17 +9,18 @@
 
 namespace grove::detail {
 
-class ProofLog;  // grove/search/proof_log.h
+class ProofLog;  // search/proof_log.h
 
 struct SearchOptions {
   Techniques techniques;
   std::uint64_t seed = 0;  // breaks ties among conflicts
   // Checks every expanded node, and the tables kept from node to node, against recomputed values
-  // (audit.h). Takes several times the time of the search.
+  // (audit.h). The search then takes several times as long.
   bool audit = false;
   Tuning tuning = {};
   ProofLog* proof = nullptr;  // sink of the certificate; nullptr: none
-  // The work for a node and its counters do not depend on earlier nodes. Slower with many tasks.
+  // The effort for a node and its counters do not depend on earlier nodes. This is slower if agents
+  // have many tasks.
   bool repeatable = false;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A root's paths are shortest for its sequences and independent of constraints. So they are planned
-// once per (agent, rank) and shared by all trees that use them. The first tree that uses a path
-// plans it around the paths of the other agents known by then; this avoids conflicts that mere ties
-// cause.
+// A root's paths are shortest for its sequences and do not depend on constraints. They are
+// therefore planned once per (agent, rank) and shared by all trees that use them. The first tree
+// that uses a path plans it around the paths of other agents that are known by then, which avoids
+// conflicts caused by mere ties.
 #include "search/sequence_forest.h"
 
 #include <algorithm>
@@ -69,7 +69,7 @@ std::shared_ptr<const AgentSequencing>& SequenceForest::slot(AgentIndex agent, s
   return ranks[rank];
 }
 
-// Plans the paths that no earlier tree used. Returns false if a limit was reached.
+// Plans the paths that no earlier tree has used. Returns false if a limit was reached.
 bool SequenceForest::plan_missing_orders(const JointSequence& joint) {
   std::vector<AgentIndex> missing;
   for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent)

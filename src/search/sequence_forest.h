@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Forest of the fixed policy: one tree per joint task sequence, in order of cost (paper, Algorithms
+// Forest for policy `fixed`: one tree per joint task sequence, in order of cost (paper, Algorithms
 // 1 and 4).
 #pragma once
 
@@ -21,7 +21,7 @@ namespace grove::detail {
 // Instantiates one tree per joint task sequence, least cost first.
 class SequenceForest : public Forest {
  public:
-  // `problem`, `limits` and `pool`, which holds the nodes of its trees, must outlive the forest.
+  // `problem`, `limits` and `pool` must outlive the forest; `pool` holds the nodes of its trees.
   // The constructor computes the cost matrices; tables and sequences are computed on first use.
   SequenceForest(const Problem& problem, NodePool& pool, RtspBackend backend, const Limits& limits);
 
@@ -46,7 +46,7 @@ class SequenceForest : public Forest {
   ConflictAvoidanceTable others_;
   Path path_;
   std::deque<Tree> trees_;
-  std::uint32_t count_ = 0;  // instantiated trees
+  std::uint32_t count_ = 0;  // number of instantiated trees
 };
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Table in parts with one lock per part.
+// Table divided into parts with one lock each.
 #pragma once
 
 #include <array>
@@ -12,15 +12,16 @@
 
 namespace grove::detail {
 
-// Parts of one type that threads use concurrently. All data of one key is in one part, so threads
-// rarely contend. A lock is held for one lookup or update. Thread-safe.
+// Table that threads use concurrently. It is divided by key into kParts parts, each with its own
+// lock, so that threads rarely contend. All data of one key is in one part. A lock is held for one
+// lookup or update. Thread-safe.
 template <class Part>
 class Sharded {
  public:
   static constexpr unsigned kBits = 5;
   static constexpr std::size_t kParts = std::size_t{1} << kBits;
 
-  // Number of the part of a key, which must not be negative.
+  // The number of the part that holds `key`, which must not be negative.
   static constexpr std::size_t part_of(std::integral auto key) {
     GROVE_ASSERT(key >= 0, "keys are not negative");
     return static_cast<std::size_t>(key) % kParts;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // *Claim: one tree holds every plan.* *Proof.* A node's bound is the sum of the agents' costs, each
-// the minimum over *all* orders of its stops under its constraints. Splitting a conflict loses no
-// plan whatever the orders are. So the tree of the classes with empty prefix is plain CBS whose low
-// level solves a larger problem.
+// of which is the minimum over *all* orders of the agent's stops under its constraints. Splitting a
+// conflict loses no plan, in whatever order agents visit their stops. So the tree of the classes
+// with empty prefix is plain CBS whose low level solves a larger problem.
 #include "search/single_tree.h"
 
 #include <stdexcept>
@@ -24,8 +24,8 @@ SingleTree::SingleTree(const Problem& problem, AgentStopsCache& stops, NodePool&
     relaxed_bound_ += stops.of(agent).cost_to_go().relaxed_bound();
 }
 
-// Plans the agents one after the other, each around the earlier ones; this avoids conflicts that
-// mere ties cause.
+// Plans the agents one after the other, each around the paths of the earlier ones, which avoids
+// conflicts caused by mere ties.
 NodePtr SingleTree::next_root() {
   if (!tree_.empty()) return nullptr;
   ConflictAvoidanceTable others(problem_.instance.world());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Forest of the free policy: one tree for all sequences.
+// Forest for policy `free`: one tree for all sequences.
 #pragma once
 
 #include <deque>
@@ -13,12 +13,12 @@
 
 namespace grove::detail {
 
-// A forest of one tree that fixes nothing: the class of each agent has an empty prefix, so it holds
-// every sequence, and the low level chooses the sequence. The tree holds every plan.
+// A forest of one tree that fixes nothing. The sequence class of each agent has an empty prefix, so
+// it contains every sequence, and the low level chooses among them. The tree holds every plan.
 class SingleTree : public Forest {
  public:
-  // All arguments must outlive this. `stops` may be shared with others of the same thread.
-  // `planner` plans the root's paths; nullptr: Grove's own low level.
+  // All references must outlive this object. `stops` may be shared with other objects of the same
+  // thread. `planner` plans the root's paths; nullptr: Grove's own low level.
   SingleTree(const Problem& problem, AgentStopsCache& stops, NodePool& pool, const Limits& limits,
              std::unique_ptr<AgentPlanner> planner = nullptr);
 
@@ -31,7 +31,7 @@ class SingleTree : public Forest {
   AgentStopsCache& stops_;
   NodePool& pool_;
   const Limits& limits_;
-  std::unique_ptr<AgentPlanner> planner_;  // until the root exists
+  std::unique_ptr<AgentPlanner> planner_;  // nullptr once the root exists
   Cost relaxed_bound_ = 0;                 // sum of the agents' relaxation bounds
   std::deque<Tree> tree_;                  // at most one
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All splits of a node on a conflict.
+// Lists the splits that a conflict allows.
 #pragma once
 
 #include <span>
@@ -11,9 +11,8 @@
 
 namespace grove::detail {
 
-// Appends the splits that these techniques allow for a conflict of `paths` (by AgentIndex): the
-// standard split of CBS, then those of symmetry reasoning, the one to prefer without evaluation
-// first.
+// Appends the splits that `techniques` allow for a conflict of `paths` (by AgentIndex): first the
+// standard CBS split, then the splits from symmetry reasoning, the preferred one first.
 void splits_of(const Conflict& conflict, std::span<const Path> paths, const Problem& problem,
                Techniques techniques, std::vector<Split>& splits);
 

@@ -49,7 +49,7 @@ AgentSubproblem subproblem_of(std::string_view key) {
   return subproblem;
 }
 
-// Hashes values, not addresses, so that the tables have the same sizes in every run.
+// Hashes values instead of addresses, so that the tables have the same sizes in every run.
 std::uint64_t hash_of(const AgentSequencing& order, std::string_view key) {
   std::uint64_t hash = order.sequences.forbidden_next;
   for (const Stop stop : order.sequences.prefix) hash = hash_combine(hash, stop);

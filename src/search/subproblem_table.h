@@ -17,44 +17,44 @@
 
 namespace grove::detail {
 
-// A subproblem (see SubproblemTable) as a value.
+// A subproblem (see SubproblemTable), as a value.
 struct AgentSubproblem {
   const AgentSequencing* order = nullptr;
   AgentIndex agent = -1;
   PackedConstraints constraints;  // in canonical order
 };
 
-// Numbers the low-level subproblems and caches the cost bound of each. A subproblem
-// is an agent with its sequence class and a set of constraints. Most nodes of a constraint
-// tree query subproblems that other nodes queried before. Keys are compared in full, so a hash
-// collision costs time but never changes a result. A cost is a function of the subproblem only, so
-// the cache changes no result. Thread-safe.
+// Numbers the low-level subproblems and caches a cost bound for each. A subproblem is an agent with
+// its sequence class and a set of constraints. Most nodes of a constraint tree query subproblems
+// that other nodes have queried before. Keys are compared in full, so a hash collision costs time
+// but never changes a result. The cost of a subproblem depends on nothing else, so the cache
+// changes no result. Thread-safe.
 class SubproblemTable {
  public:
   using Id = std::int32_t;
 
   struct CostBound {
-    Time lower_bound = 0;      // no path costs less; kNever: no path exists
+    Time lower_bound = 0;      // no path costs less; kNever: there is no path
     bool exact = false;        // a path of that cost exists, or `lower_bound` is kNever
-    bool was_aborted = false;  // a computation of the cost was once aborted
+    bool was_aborted = false;  // a computation of the cost was once aborted as too expensive
     friend bool operator==(const CostBound&, const CostBound&) = default;
   };
 
-  // Number of a subproblem, which is added if it is new. `constraints` must be in canonical order,
-  // see canonical(). `order` must outlive this object.
+  // The number of a subproblem, which is added if it is new. `constraints` must be in canonical
+  // order; see canonical(). `order` must outlive this object.
   Id id(AgentIndex agent, const AgentSequencing& order, std::span<const Constraint> constraints);
   Id id(const AgentSubproblem& subproblem);
 
   // The subproblem with this number.
   AgentSubproblem subproblem(Id id) const;
 
-  // Size of its packed constraints in bytes. The more constraints, the fewer nodes share the
-  // subproblem.
+  // Size of the packed constraints of a subproblem, in bytes. The more constraints, the fewer nodes
+  // share the subproblem.
   std::size_t constraint_bytes(Id id) const;
 
   CostBound known(Id id) const;
-  // Merges `known` into the entry; the stronger statement is kept. Returns true if the entry
-  // changed.
+  // Merges `known` into the entry of `id`, which keeps the stronger bound. Returns whether the
+  // entry changed.
   bool merge(Id id, CostBound known);
 
   // Memory in use, in bytes (approximate).
@@ -83,7 +83,7 @@ class SubproblemTable {
 
 // Sorts a list of constraints into canonical order and removes duplicates.
 void canonical(std::vector<Constraint>& constraints);
-// Inserts `more` into a list in canonical order, unless it is there already.
+// Inserts `more` into a list in canonical order, unless the list contains it.
 void add_to_canonical(std::vector<Constraint>& constraints, const Constraint& more);
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Search techniques beyond plain CBS; each can be switched off.
+// Search techniques beyond plain CBS, each of which can be switched off.
 #pragma once
 
 #include <array>
@@ -11,25 +11,26 @@
 
 namespace grove::detail {
 
-// One technique. None changes what is proven, only the running time. The policy `fixed` uses none.
-// Each is explained at the head of the file that implements it.
+// One technique. Techniques affect the running time but never the validity of a result. Policy
+// `fixed` and the published low levels use none. Each technique is explained at the head of the
+// file that implements it.
 enum class Technique : std::uint8_t {
   kPrimal,           // prioritised planning and large neighbourhood search for incumbents
   kLacam,            // LaCAM for first plans on dense instances
-  kStrongBranching,  // split on the conflict that raises the bounds most
-  kBypass,           // instead of splitting, take a path of equal cost with fewer conflicts
-  kFewestConflicts,  // low level: among paths of equal cost, the fewest conflicts
+  kStrongBranching,  // choose the split that raises the bounds of the children most
+  kBypass,           // instead of splitting, use a path of equal cost with fewer conflicts
+  kFewestConflicts,  // low level: of the paths of equal cost, one with fewest conflicts
   kTarget,           // split on the time from which an agent rests
   kCorridor,         // split on which of two agents passes a corridor first
-  kWdg,              // WDG: bound from pairs of agents that cannot both have their best paths
-  kJointMdd,         // find such pairs by their MDDs, without a search
-  kCostSplits,       // split on which of two such agents costs more
-  kClusters,         // the same for groups that conflict although no pair of them must cost more
-  kEstimates,        // w > 0 and no plan yet: every second node by estimated cost
+  kWdg,              // WDG heuristic: bound from pairs that must cost more together
+  kJointMdd,         // WDG: detect such pairs by comparing their MDDs
+  kCostSplits,       // split on which agent of such a pair costs more
+  kClusters,         // WDG: bounds of groups in which no pair must cost more
+  kEstimates,        // if w > 0 and there is no plan yet: take every second node by estimate
   kJointSearch,      // A* over joint states, if there are few agents and places
   kLagrangian,       // Lagrangian bound, if there are many agents
-  kJointGroups,      // A* over joint states of pairs and groups that splits do not solve
-  kLagrangianLns,    // LNS: the Lagrangian multipliers choose which paths to re-plan, and where to
+  kJointGroups,      // A* over joint states for pairs and groups that splits do not solve
+  kLagrangianLns,    // LNS: the Lagrangian multipliers guide which paths to re-plan, and how
 };
 
 struct NamedTechnique {
@@ -57,13 +58,13 @@ inline constexpr std::array kTechniques = {
     NamedTechnique{Technique::kLagrangianLns, "lagrangian-lns"},
 };
 
-// Former techniques. The options report that they were removed.
+// Names of removed techniques. The option parser reports them as removed.
 inline constexpr std::array<std::string_view, 1> kRemovedTechniques = {"sequence-splits"};
 
-// A set of techniques; a value.
+// A set of techniques. A value.
 class Techniques {
  public:
-  Techniques() = default;  // none
+  Techniques() = default;  // empty
   Techniques(std::initializer_list<Technique> techniques) {
     for (Technique t : techniques) bits_ |= bit(t);
   }
@@ -83,7 +84,8 @@ class Techniques {
 };
 
 std::string_view name_of(Technique technique);
-// Also accepts the deprecated names of before 0.1 ("configurations", ...), until 0.2.
+// Returns nullopt if no technique has this name. Until version 0.2 it also accepts the deprecated
+// names from before version 0.1, such as "configurations".
 std::optional<Technique> parse_technique(std::string_view name);
 
 }  // namespace grove::detail

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A root's cost is the first bound of its tree. So a record from outside is checked: its path must
-// take the least time for the order in which it visits its stops. For a fixed order this proves the
-// bound again. Mostly the distances decide this at once; where agents turn, they may be too small.
+// The cost of a root is the first lower bound of its tree. A record from outside is therefore
+// checked: each path must take the least time for the order in which it visits its stops. For a
+// fixed order this proves the bound again. Usually the distances decide the question; where agents
+// turn, distances can be too small, and a search decides.
 #include "search/tree_record.h"
 
 #include <algorithm>
@@ -80,7 +81,8 @@ Trees::Order Trees::order_of(AgentIndex agent, const TreeRecord::Order& record) 
   return known.emplace_back(std::make_shared<const AgentSequencing>(made(agent, record)));
 }
 
-// Least cost of a path through the goals, given a path of `known` steps.
+// Least cost of a path through the goals. `known` is the cost of a known path; it is returned
+// without a search if the distances prove that it is the least.
 Time Trees::min_cost(const GoalSequence& goals, std::uint32_t known) {
   const Time distance = goals.distance(goals.start(), 0);
   if (distance == static_cast<Time>(known)) return distance;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Serializable trees, and the container that recreates trees from them.
+// Serializable trees, and a container that recreates trees from them.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@
 
 namespace grove::detail {
 
-// The sequence classes that a tree fixes, and its root's paths. A value.
+// The sequence classes that a tree fixes, and the paths of its root. A value.
 struct TreeRecord {
-  // See AgentSequencing.
+  // What the tree fixes about one agent; see AgentSequencing.
   struct Order {
     SequenceClass sequences;
     bool fixed = false;                // the prefix is complete and determines the goals
-    std::uint32_t steps = 0;           // of the path
+    std::uint32_t steps = 0;           // length of the path
     std::vector<std::uint64_t> words;  // see packed_path.h
     friend bool operator==(const Order&, const Order&) = default;
   };
@@ -28,22 +28,23 @@ struct TreeRecord {
   friend bool operator==(const TreeRecord&, const TreeRecord&) = default;
 };
 
-// O(length of the paths).
+// Converts a tree to a record. O(total length of the paths).
 TreeRecord record_of(const Tree& tree);
 
-// Trees that another forest of the same instance instantiated. Trees share equal orders. One thread
-// at a time. Must outlive the nodes of its trees.
+// Trees that another forest of the same instance has instantiated, recreated from records. Trees
+// with equal orders share them. Must outlive the nodes of its trees. One thread at a time.
 class Trees {
  public:
-  // All arguments must outlive this. `stops` may be shared with others of the same thread; it is
-  // queried for agents whose order is not fixed. `pool` holds the nodes of these trees.
+  // All arguments must outlive this object. `stops` may be shared with other objects of the same
+  // thread; it is queried for agents whose order is not fixed. `pool` holds the nodes of these
+  // trees.
   Trees(const Problem& problem, AgentStopsCache& stops, NodePool& pool);
 
   // Recreates the tree with this number and returns its root. Throws std::invalid_argument, and
-  // adds nothing, if the record cannot be one of this instance: a wrong number of agents or stops,
-  // or a path that is no walk from the agent's start to a place where it may rest, that visits
-  // other stops or another order, or that is not the shortest in its order. Not checked: that a
-  // class with open stops has no better order.
+  // adds nothing, if the record cannot belong to this instance. This is so if the number of agents
+  // or stops is wrong, or if a path is not a walk from its agent's start to a place where the agent
+  // may rest, does not visit the stops in their order, or is not shortest for that order. For a
+  // class that leaves the order open, it is not checked that no other order is better.
   NodePtr add(const TreeRecord& record, std::uint32_t number);
 
   std::size_t size() const { return trees_.size(); }

@@ -2,51 +2,54 @@
 // WDG heuristic: weighted pairwise dependencies (Li, Felner, Boyarski, Ma and Koenig, IJCAI 2019).
 //
 // For two agents whose paths conflict at a node, a small CBS on these two agents computes a lower
-// bound on how much more than now they cost together (their *excess*). It uses the same splits as
-// the main search, considers only conflicts between these two, and starts at the node, so it
-// respects all constraints of the node on them. *Claim: in every plan that satisfies the node's
-// constraints, these two agents cost together at least the least cost among the open nodes of that
-// search.* *Proof.* Splitting loses no plan, and the other agents cannot make these two cheaper.
-// *Consequence.* A search that is aborted early leaves a valid bound. A search whose least-cost
-// open node is conflict-free yields the exact value. Let `slack` be the largest excess below the
-// cutoff. A child that reaches the cutoff is pruned and counts as an excess of slack + 1.
+// bound on their *excess*: how much more they cost together than the sum of the costs of their
+// paths at the node. It uses the same splits as the main search, considers only conflicts between
+// these two agents, and starts at the node, so it respects all constraints of the node on them.
+// *Claim: in every plan that satisfies the node's constraints, the two agents cost together at
+// least the least cost among the open nodes of that search.* *Proof.* Splitting loses no plan, and
+// the other agents cannot make the two agents cheaper. *Consequence.* A search that is aborted
+// early leaves a valid bound. A search whose least-cost open node is conflict-free yields the exact
+// value. Let `slack` be the largest excess below the cutoff. A child that reaches the cutoff is
+// pruned and counts as an excess of slack + 1.
 //
 // *Joint MDDs.* Before that search, the MDDs of the two agents are compared
 // (planning/joint_mdd_search.cpp). If some pair of their paths does not collide, the excess is 0.
-// If all pairs collide, it is at least 1, even if no single conflict shows it.
+// If all pairs collide, the excess is at least 1, even if no single conflict shows it.
 //
 // *Splits on costs.* If a and b cannot both keep their costs A and B, then in every plan a comes to
 // rest after A or b comes to rest after B. An agent with a destination comes to rest only there, so
 // the constraint "does not come to rest there by A" (kNoRestBy) expresses the first branch, and
 // each branch costs at least one more. This does not hold for an agent that must turn to a given
-// heading at its destination or works there, because it finishes later than it comes to rest. An
-// agent that does neither finishes when it arrives, in some plan of no higher cost. Such a split
-// resolves in one step what splits on cells resolve one by one where no cell is on all best paths
-// (the rectangle conflicts of Li et al., AAAI 2019, on open ground). So it is used where no
-// conflict raises the cost of any branch. Where one branch rises, splitting on the conflict is
-// better: with 20 agents in rooms, splits on costs needed 1 to 8 times as many nodes. It pays only
-// together with paths of fewest conflicts, which show where the delay is best spent. *Measured*: of
-// five instances of 100 agents on empty-32-32 without tasks, w = 0, 5 s, both together solve 5,
-// either one without the other 1.
+// heading or execute a task at its destination, because it finishes later than it comes to rest. An
+// agent that does neither finishes when it arrives, in some plan of no higher cost. Where no cell
+// is on all best paths (the rectangle conflicts of Li et al., AAAI 2019, on open ground), such a
+// split resolves in one step what splits on cells resolve one by one. It is therefore used where no
+// conflict raises the cost of any branch. Where the cost of one branch rises, splitting on the
+// conflict is better: with 20 agents in rooms, splits on costs needed 1 to 8 times as many nodes.
+// Splits on costs pay only together with paths of fewest conflicts, which show where the delay is
+// best spent. *Measured*: of five instances of 100 agents on empty-32-32 without tasks, w = 0, 5 s,
+// both together solve 5, either one without the other 1.
 //
-// *Sum.* The excesses of two pairs may be the same steps of an agent that they share.
-// covering_bound() computes the least total that satisfies all statements.
+// *Sum.* Two pairs that share an agent can owe their excesses to the same additional steps of that
+// agent, so their excesses must not be added up. covering_bound() computes the least total that
+// satisfies all statements.
 //
 // *Cache.* The excess of a pair depends only on the two subproblems (agent, sequence class and
-// constraint set). So a bound proven at one node holds at every node where
-// both agents have the same subproblems. (Which bound was proven depends on the cutoff at that
-// time.) From a node to its child one subproblem changes, so nearly all pairs are cached. Pairs
-// that do not conflict now but conflicted in the same subproblems at some other node count as well.
+// constraint set), so a bound proven at one node holds at every node where both agents have the
+// same subproblems. (Which bound was proven depends on the cutoff at that time.) From a node to its
+// child one subproblem changes, so nearly all pairs are cached. Pairs that do not conflict at the
+// node count as well if they conflicted at another node with the same subproblems.
 //
-// *Groups.* Where no pair must cost more, three or more agents may still block each other whatever
-// they do; or they do not, and splits move one conflict from pair to pair for ever. The same search
-// over a connected group of such agents decides this, and its result is cached in the same way.
+// *Groups.* Even if no pair must cost more, three or more agents may block each other whatever they
+// do. If they do not, splits can still move one conflict from pair to pair for ever. The same
+// search on a connected group of such agents decides which of these is the case, and its result is
+// cached in the same way.
 //
-// *Joint search.* Where that search ends without a result because it reached its limit of
-// expansions, A* over the joint states of the pair or group continues (joint_groups.cpp).
+// *Joint search.* If this search reaches its limit of expansions without a result, A* over the
+// joint states of the pair or group continues (joint_groups.cpp).
 //
-// *Bounding effort.* Fewer statements give a lower bound that is weaker but valid. While other
-// ranks wait for nodes, only cached statements count.
+// *Bounding effort.* Fewer statements give a bound that is weaker but valid. While other ranks wait
+// for nodes, only cached statements are used.
 #include "search/wdg_heuristic.h"
 
 #include <algorithm>
@@ -91,7 +94,7 @@ WdgHeuristic::Outcome WdgHeuristic::find_bound(const NodePtr& node, NodeView& vi
   std::vector<GroupExcess> statements;
   collect(statements);
   const auto max_excess = std::ranges::max_element(statements, {}, &GroupExcess::excess);
-  // A single statement that reaches the cutoff proves it without the others.
+  // A single statement that reaches the cutoff suffices, so the other statements are not needed.
   if (max_excess != statements.end() && max_excess->excess > slack)
     statements = {*max_excess};
   else
@@ -103,7 +106,8 @@ WdgHeuristic::Outcome WdgHeuristic::find_bound(const NodePtr& node, NodeView& vi
 WdgHeuristic::Outcome WdgHeuristic::compute_weights(NodeView& view, Cost slack,
                                                     const Limits& limits) {
   // If an earlier cache was dropped because it was full, results of this call may be dropped as
-  // well before a later call uses them. So there is no limit, and this call does all the work.
+  // well before a later call uses them. In that case there is no effort limit, and this call
+  // computes all weights.
   abort_at_ = memory_.common()->follows_another ? std::numeric_limits<std::int64_t>::max()
                                                 : work() + tuning_.bound_work;
   const Outcome outcome = solve_conflicting_pairs(view, slack, 0, limits);
@@ -130,8 +134,9 @@ void WdgHeuristic::load_subproblems(NodeView& view) {
   }
 }
 
-// The excess of a pair or group counts from the costs of its agents' paths at the node where it was
-// proven. It is valid at other nodes because the paths cost the same there; this is the check.
+// The excess of a pair or group is relative to the costs of its agents' paths at the node where it
+// was proven. It is valid at other nodes because the paths cost the same there, which this function
+// checks.
 bool WdgHeuristic::may_cost(AgentIndex agent, Time cost) const {
   const SubproblemTable::CostBound known = memory_.known(subproblem_[agent]);
   return known.exact ? cost == known.lower_bound : cost >= known.lower_bound;
@@ -153,7 +158,7 @@ WdgHeuristic::Outcome WdgHeuristic::solve_conflicting_pairs(NodeView& view, Cost
     if (techniques_.has(Technique::kJointMdd) && known.excess == 0) {
       const auto dependence = compare(view, a, b, limits);
       if (!dependence) return Outcome::kStopped;
-      // (The comparison ignores following conflicts.)
+      // The comparison ignores following conflicts.
       known.exact = *dependence == Dependence::kIndependent && instance_.may_follow();
       known.excess = *dependence == Dependence::kDependent ? 1 : 0;
       if (proof_ != nullptr && known.excess > 0) log_lemma(view, std::array{a, b}, 1, kNoProof, {});
@@ -200,8 +205,8 @@ WdgHeuristic::Outcome WdgHeuristic::solve_groups(NodeView& view, Cost slack, con
   return Outcome::kDone;
 }
 
-// Components of the graph of conflicts between agents without a known excess, each in ascending
-// order.
+// Components of the graph of conflicts between agents without a known positive excess. Each
+// component is in ascending order.
 std::vector<std::vector<AgentIndex>> WdgHeuristic::groups_in_conflict(const NodeView& view) const {
   std::vector<AgentIndex> leader(static_cast<std::size_t>(agents_));
   std::iota(leader.begin(), leader.end(), 0);
@@ -215,7 +220,7 @@ std::vector<std::vector<AgentIndex>> WdgHeuristic::groups_in_conflict(const Node
   for (const AgentIndex first : leader) ++size[first];
   std::vector<std::vector<AgentIndex>> groups;
   for (AgentIndex first = 0; first < agents_; ++first) {
-    if (size[first] < 2) continue;  // most agents are in no such conflict
+    if (size[first] < 2) continue;  // most agents have no such conflict
     auto& group = groups.emplace_back();
     for (AgentIndex agent = first; agent < agents_; ++agent)
       if (leader[agent] == first) group.push_back(agent);
@@ -229,7 +234,8 @@ std::vector<SubproblemTable::Id> WdgHeuristic::key(std::span<const AgentIndex> g
   return ids;
 }
 
-// Returns false if a limit was reached.
+// Raises `known`, the excess of a pair or group, by splits and then by joint search. Returns false
+// if a limit was reached.
 bool WdgHeuristic::solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
                          std::int64_t max_expansions, const Limits& limits, ExcessBound& known) {
   if (!solve_by_splits(view.node(), group, slack, max_expansions, limits, known)) return false;
@@ -245,14 +251,15 @@ bool WdgHeuristic::solve_by_splits(const NodePtr& node, std::span<const AgentInd
                                    Cost slack, std::int64_t max_expansions, const Limits& limits,
                                    ExcessBound& known) {
   const Cost base = node->cost();
-  // If every branch is pruned because no path exists, the result holds for any cutoff.
+  // If all branches are pruned because no path exists, the result holds for any cutoff.
   const Cost closed = base + slack + 1 >= kInfiniteCost ? kInfiniteCost : slack + 1;
   const Cost known_before = known.excess;
   open_.clear();
   open_.push_back({base, node});
   written_.clear();
   for (std::int64_t i = 0; i < max_expansions && !open_.empty(); ++i) {
-    // Ties are broken in favour of the newest node: the first conflict-free node ends the search.
+    // Ties are broken in favour of the newest node, because the search ends with the first
+    // conflict-free node.
     const auto best = std::ranges::min_element(open_.rbegin(), open_.rend(), {}, &Open::cost);
     const Open next = *best;
     open_.erase(std::next(best).base());
@@ -281,7 +288,8 @@ bool WdgHeuristic::solve_by_splits(const NodePtr& node, std::span<const AgentInd
   return true;
 }
 
-// Stores costs relative to the group's cost at the initial node, until log_lemma() converts them.
+// Stores costs relative to the cost of the initial node, until log_lemma() converts them to costs
+// of the group.
 void WdgHeuristic::log_splits(const Open& from, Cost base, Cost closed) {
   const Split& split = pair_brancher_.branching()->split;
   ProofSplit written{proof_key(*from.node), split, {closed, closed}};
@@ -313,8 +321,8 @@ void WdgHeuristic::leave() {
   pair_view_.leave();
 }
 
-// Collects each pair and group with a known positive excess in its present subproblems once. The
-// order does not depend on when the results became known.
+// Collects each pair and group whose current subproblems have a known positive excess, once each.
+// The order does not depend on when the results became known.
 void WdgHeuristic::collect(std::vector<GroupExcess>& statements) {
   for (AgentIndex a = 0; a < agents_; ++a) {
     partners_.clear();

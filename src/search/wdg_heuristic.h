@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// WDG heuristic of CBS: lower bounds from pairs and groups of agents that must cost more together.
+// WDG heuristic of CBS: lower bounds from pairs and groups of agents that cost more together than
+// individually.
 #pragma once
 
 #include <cstdint>
@@ -16,57 +17,58 @@
 
 namespace grove::detail {
 
-// How much effort the bound of a node may take before the node is split.
+// How much effort may be spent on the bound of a node before the node is split.
 enum class BoundingEffort : std::uint8_t {
   kFull,
-  kCachedOnly,  // to get its children sooner: only cached results, no new search
+  kCachedOnly,  // only cached results, no new search, so that children exist sooner
 };
 
 // Weighted pairwise-dependency heuristic of CBS (WDG: Li et al., IJCAI 2019), with a cache that
-// serves all nodes. It also bounds larger groups that conflict although no pair of them must cost
-// more. The argument is at the head of wdg_heuristic.cpp. One thread at a time.
+// serves all nodes. It also bounds larger groups that conflict although no pair of their agents
+// must cost more. The proof is at the head of wdg_heuristic.cpp. One thread at a time.
 class WdgHeuristic {
  public:
-  // All arguments must outlive this.
+  // `problem`, `planner` and `memory` must outlive this object.
   WdgHeuristic(const Problem& problem, const SearchOptions& options, PathPlanner& planner,
                WorkerCache& memory);
 
   enum class Outcome : std::uint8_t {
     kDone,
-    kUnfinished,  // Tuning::bound_work was reached, so that other work can run; the next call for
-                  // the same node continues
+    kUnfinished,  // Tuning::bound_work was reached, so the worker can do something else; the next
+                  // call for the same node continues
     kStopped,     // a limit was reached
   };
 
-  // Helps other workers that bound the same node with the same shared cache: solves pairs, starting
-  // at the fraction `share` in [0, 1) of the list of pairs. Returns false if there was no work left
-  // to do.
+  // Helps other workers that bound the same node with the same shared cache: bounds conflicting
+  // pairs, starting at the fraction `share` in [0, 1) of the list of pairs. Returns false if there
+  // was nothing left to do.
   bool help(const NodePtr& node, NodeView& view, Cost cutoff, double share, const Limits& limits);
 
   // Sets `bound` to a proven lower bound on every plan that satisfies the constraints of `node`, or
-  // to `cutoff` if none of these plans costs less than that. `view` must have entered `node` with
-  // all agents. `bound` is valid only on kDone.
+  // to `cutoff` if no such plan costs less than `cutoff`. `view` must have entered `node` with all
+  // agents. `bound` is valid only if the result is kDone.
   Outcome find_bound(const NodePtr& node, NodeView& view, Cost cutoff,
                      BoundingEffort bounding_effort, const Limits& limits, Cost& bound);
 
-  // Appends the splits on the costs of two agents that conflict at the node that `view` has entered
-  // and are known to be unable to both keep their costs: one comes to rest later, or the other
-  // does.
+  // Appends the splits on costs, "a comes to rest later, or b does". It appends one for each pair
+  // of agents that conflict at the node that `view` has entered, finish when they arrive, and are
+  // known to be unable to both keep their costs.
   void splits(NodeView& view, std::vector<Split>& splits);
-  // Key of the lemma which proves that such a split loses no plan. `view` has entered the node.
+  // Key of the lemma that proves that such a split loses no plan. `view` has entered the node.
   ProofKey why(NodeView& view, const Split& split);
 
   // Drops all references to nodes.
   void leave();
 
-  // Counters since construction: expansions for pairs and groups, pairs of places compared in joint
-  // MDDs, and below, the counters of the view and the brancher of pairs and groups.
+  // Counters since construction. expansions(): nodes expanded for pairs and groups.
+  // joint_mdd_nodes(): pairs of MDD nodes compared in joint MDDs. steps() and optimal_nodes(): the
+  // counters of the view and of the brancher for pairs and groups.
   std::int64_t expansions() const { return expansions_; }
   std::int64_t joint_mdd_nodes() const { return joint_mdd_search_.pairs(); }
   std::int64_t steps() const { return pair_view_.steps(); }
-  // As NodeView::swap_cache(), for the view of pairs and groups.
+  // Like NodeView::swap_cache(), for the view for pairs and groups.
   void swap_cache(NodeView::AgentCache& cache) { pair_view_.swap_cache(cache); }
-  // Solver of groups by joint search.
+  // The solver for groups by joint search.
   const JointGroups& joint_groups() const { return joint_groups_; }
   std::int64_t optimal_nodes() const { return pair_brancher_.optimal_nodes(); }
 
@@ -109,17 +111,17 @@ class WdgHeuristic {
   const Tuning tuning_;
   ProofLog* const proof_;
   WorkerCache& memory_;
-  NodeView pair_view_;  // of a pair or group
+  NodeView pair_view_;  // view of a pair or group
   Brancher pair_brancher_;
   JointMddSearch joint_mdd_search_;
   JointGroups joint_groups_;
   std::vector<SubproblemTable::Id> subproblem_;  // by AgentIndex, at the node
   std::vector<Open> open_;  // unsorted; the search takes the node of least cost
   std::vector<NodePtr> children_;
-  std::vector<ProofSplit> written_;  // of the current group, if a certificate is written
+  std::vector<ProofSplit> written_;  // splits of the current group, if a certificate is written
   std::vector<DependencyTable::Partner> partners_;
   std::int64_t expansions_ = 0;
-  std::int64_t abort_at_ = 0;  // a value of work()
+  std::int64_t abort_at_ = 0;  // value of work() at which to abort
 };
 
 }  // namespace grove::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The Hungarian method in the form of successive shortest augmenting paths (Kuhn 1955; Jonker and
-// Volgenant 1987). Rows are added one by one, each along a shortest path in reduced costs. Dual
-// prices of rows and columns keep the reduced costs non-negative.
+// Volgenant 1987). Rows are added one by one, each along a shortest augmenting path in reduced
+// costs. The dual variables of rows and columns (here: prices) keep the reduced costs non-negative.
 #include "sequencing/assignment.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ class Assignment {
         column_dual_(columns_),
         row_of_(columns_, kNone) {}
 
-  // Adds a row. Returns false if no column is available for it, whatever the others take.
+  // Adds a row. Returns false if the rows added so far and this one have no assignment.
   bool enter(int row) {
     distance_.assign(columns_, kForbidden);
     before_.assign(columns_, kNone);
@@ -90,7 +90,7 @@ class Assignment {
   std::vector<std::int64_t> column_dual_;
   std::vector<int> row_of_;  // by column
   std::vector<std::int64_t> distance_;
-  std::vector<int> before_;  // by column: its predecessor on the path; kNone: the entering row
+  std::vector<int> before_;  // by column: the previous column on the path; kNone: `row` itself
   std::vector<bool> done_;
 };
 

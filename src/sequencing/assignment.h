@@ -11,9 +11,9 @@ namespace grove::detail {
 // Cost of a pair (row, column) that is not allowed.
 inline constexpr std::int64_t kForbidden = std::int64_t{1} << 60;
 
-// Returns the column of each row in an assignment of least total cost, no two rows with the same
-// column. Returns nullopt if there is no such assignment. cost[row][column]: from 0 to below 1e15,
-// or kForbidden; all rows have the same length. O(rows^2 * columns).
+// Returns the column of each row in an assignment of least total cost. Each row gets a column of
+// its own. Returns nullopt if no such assignment exists. cost[row][column]: at least 0 and less
+// than 1e15, or kForbidden; all rows have the same length. O(rows^2 * columns).
 std::optional<std::vector<int>> min_cost_assignment(
     const std::vector<std::vector<std::int64_t>>& cost);
 

@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: MIT
-// rTSPs by bounded dynamic programming over a sequence graph that grows on demand.
+// Bounded dynamic programming for rTSPs, over a sequence graph that grows on demand.
 //
 // *Exactness.* The graph (sequence_dag.cpp) holds every sequence cheaper than its outside_bound().
 // Let `value` be the cost of the best member of a class inside the graph, kNever if there is none.
-// It is the cost of a real sequence, and every member outside costs at least outside_bound(). So if
-// value <= outside_bound(), `value` is optimal. Otherwise the optimum is at least outside_bound():
-// it exceeds the cutoff, or the graph is rebuilt with a greater cost limit.
+// If finite, it is the cost of a sequence of the class, and every member outside the graph costs at
+// least outside_bound(). So if value <= outside_bound(), `value` is optimal. Otherwise the optimum
+// is at least outside_bound(). If outside_bound() exceeds the cutoff, the query is answered;
+// otherwise the graph is rebuilt with a greater cost limit.
 //
-// *Growth.* The size of the increase affects only speed, as in iterative deepening with controlled
-// growth (Sarkar et al. 1991). It admits about as many new states as there are, so that all builds
-// together cost little more than the last one. No heuristic upper bound is needed: the first limit
-// is the bound of the relaxation, and the graph stops growing as soon as the query is answered.
+// *Growth.* The increase of the limit affects only speed, as in iterative deepening with controlled
+// growth (Sarkar et al. 1991). It is chosen to admit about as many new states as the graph already
+// has, so that all builds together cost little more than the last one. The method needs no
+// heuristic upper bound: the first limit is the bound of the relaxation, and the graph stops
+// growing as soon as the query is answered.
 //
-// *Relaxation.* The relaxation of the class itself is tried first. It decides hopeless classes
-// without any graph, and so prevents one hopeless class from enlarging the graph for all.
+// *Relaxation.* The relaxation of the class is tried first. It decides many classes above the
+// cutoff without a graph, so that such a class does not enlarge the graph that all classes share.
 //
-// *Canonical sequences.* If many stops lie in a row, there are many sequences of the same cost
-// that no graph holds them. If the graph exceeds max_states_, a graph of the canonical sequences
-// (passed_stops.cpp) of the queried class replaces it, and is built separately for each class. They
-// include a cheapest member, which is all that a query needs. If that graph becomes too large as
-// well, the answer is kStopped, for this class and for every later class that the relaxation does
-// not decide, so that no further memory is wasted.
+// *Canonical sequences.* If many stops are in a row, a huge number of sequences can have the same
+// cost, and no graph can hold all of them. If the graph exceeds max_states_, a graph of the
+// canonical sequences (passed_stops.cpp) of the queried class replaces it. This graph is built
+// separately for each class. A query needs only a cheapest member of its class, and at least one is
+// canonical. If the second graph becomes too large as well, the answer is kStopped for this class
+// and for every later class that the relaxation does not decide, so that no more memory is spent.
 //
 // *Measured* on 32x32 maps and den312d, CTS and MG, one core: the best sequence of 36 stops takes 2
 // to 120 ms, with graphs of at most 2,800 states.
@@ -73,8 +75,8 @@ class BoundedDp : public RtspSolver {
   using End = SequenceDag::End;
   static constexpr std::size_t kMaxCanonicalStates = std::size_t{1} << 21;
 
-  // Bound by the relaxation only. Exact for complete classes; kNever for classes without a next
-  // stop.
+  // Returns the bound of the relaxation on a class. It is exact for a class with a complete prefix,
+  // and kNever for a class that allows no next stop.
   Time class_bound(const ClassRoot& root) const {
     if (root.left == 0) return add_costs(root.cost, matrix_.to_end(root.last));
     if (root.next == 0) return kNever;
@@ -82,7 +84,8 @@ class BoundedDp : public RtspSolver {
                      relaxation_.bound(relaxation_.tail(root.left), root.next, root.last));
   }
 
-  // A graph of canonical sequences serves only one class.
+  // Changes the class. A graph of canonical sequences is valid for one class only, so it is
+  // discarded.
   void turn_to(const SequenceClass& sequence_class, Time relaxed) {
     if (sequence_class == class_) return;
     class_ = sequence_class;
@@ -112,10 +115,10 @@ class BoundedDp : public RtspSolver {
 
   const CostMatrix& matrix_;
   const Limits& limits_;
-  const std::size_t max_states_;  // of the graph of all sequences
+  const std::size_t max_states_;  // size limit of the graph of all sequences
   OneTreeRelaxation relaxation_;
   SequenceDag dag_;
-  std::optional<PassedStops> passed_;  // set once the graph of all sequences was too large
+  std::optional<PassedStops> passed_;  // set after the graph of all sequences was too large
   SequenceClass class_;                // class of the graph of canonical sequences
   bool too_large_ = false;
 };

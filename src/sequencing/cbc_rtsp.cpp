@@ -1,28 +1,30 @@
 // SPDX-License-Identifier: MIT
-// rTSPs as integer programs, solved by CBC: the method of the paper. Grove keeps it as an
+// Solves rTSPs as integer programs with CBC, as in the paper. This back end serves as an
 // independent check of the dynamic programs, and for cost structures that they do not cover.
 //
-// *Formulation.* A class is contracted first: its prefix becomes the start, and stops that may not
-// come next lose their leg from the start. What remains is a Hamiltonian path from the start
-// through all stops to the end, or, with start and end merged into one place "outside", a cycle
-// through all places:
+// *Formulation.* First the class is contracted: its prefix becomes the start, and the legs from the
+// start to forbidden next stops are removed. The remaining problem is a shortest Hamiltonian path
+// from the start through all stops to the end or, with start and end merged into one place
+// "outside", a shortest cycle through all places:
 //
 //   minimize  sum of cost(i, j) * x(i, j)      over 0-1 variables for legs that exist,
 //   every place is left once and entered once,
 //   sum of x within C <= |C| - 1               for sets C of stops.
 //
-// *Subtour elimination.* Of the exponentially many last rows only those of pairs are present from
-// the beginning (Dantzig, Fulkerson and Johnson 1954). The others are added *between* solves, for
-// the cycles in the solution that avoid the outside: first for the linear relaxation, until it is
-// connected, then for the integer program. A solution without such a cycle is optimal for the full
-// program, because it solves a program with fewer rows. Cuts from callbacks inside CBC would be
-// lost to its presolve and its restarts.
+// *Subtour elimination.* Of the exponentially many rows for sets C, the program contains only those
+// for pairs at first (Dantzig, Fulkerson and Johnson 1954). The others are added *between* solves,
+// for the subtours in the solution that do not contain the outside: first for the linear
+// relaxation, until its solution is connected, then for the integer program. A solution without
+// such a subtour is optimal for the full program, because it is optimal for a program with fewer
+// rows. Cuts that callbacks add inside CBC would be lost in its presolve and its restarts.
 //
-// *Exactness.* Both gaps are 0. The answer is checked to be an integral path, and its cost is
-// computed again in integers. A solve that stops early is reported as "unknown".
+// *Exactness.* The absolute and the relative gap are 0. The code checks that the solution is an
+// integral path, and recomputes its cost in integers. If a solve stops early, the answer is
+// kStopped.
 //
-// *Threads.* CBC is not thread-safe, so the whole process solves one program at a time. Only the
-// classes of CBC are used: its driver (CbcMain) would install signal handlers and print.
+// *Threads.* CBC is not thread-safe, so the whole process solves one program at a time. The code
+// uses only the classes of CBC, because its driver (CbcMain) would install signal handlers and
+// print.
 #include <CbcEventHandler.hpp>
 #include <CbcModel.hpp>
 #include <ClpEventHandler.hpp>
@@ -47,8 +49,8 @@ namespace {
 
 constexpr double kIntegral = 1e-5;  // tolerance; a value further from an integer is an error
 
-// Lock that is held while a program is solved. The constructor waits for it and polls the limits;
-// is_locked() is false if a limit was reached first.
+// Process-wide lock that a thread holds while it solves a program. The constructor waits for the
+// lock and polls the limits; is_locked() is false if a limit was reached first.
 class SolverLock {
  public:
   explicit SolverLock(const Limits& limits) : lock_(mutex(), std::defer_lock) {
@@ -90,7 +92,7 @@ class StopLinear : public ClpEventHandler {
   const Limits* limits_;
 };
 
-// A class without its prefix: the stops left, renumbered, and the costs between them.
+// A class without its prefix: the remaining stops, renumbered, and their cost matrix.
 struct Contracted {
   std::vector<Stop> stops;
   CostMatrix matrix;
@@ -111,7 +113,8 @@ Contracted contract(const CostMatrix& matrix, const ClassRoot& root) {
   return result;
 }
 
-// The integer program of one contracted class. Its places are the stops and, last, the outside.
+// The integer program of one contracted class. Its places are the stops and, as the last one, the
+// outside.
 class PathProgram {
  public:
   enum class Outcome : std::uint8_t { kOptimal, kInfeasible, kStopped };
@@ -168,8 +171,8 @@ class PathProgram {
   int outside() const { return places_ - 1; }
   bool stopped() const { return limits_.stop_requested(); }
 
-  // Loads one column per leg, with a 1 in three rows: leaving its first place, entering its second,
-  // and its pair of stops.
+  // Loads one column per leg. It has a 1 in three rows: the rows for leaving the first place, for
+  // entering the second place, and for the pair if both are stops.
   void load() {
     std::vector<int> rows;
     std::vector<int> columns;
@@ -208,8 +211,8 @@ class PathProgram {
     solver_.addRow(row, -solver_.getInfinity(), std::popcount(stops) - 1);
   }
 
-  // Adds the row of every component of the solution's legs that does not contain the outside.
-  // Returns whether there was one.
+  // Adds the row for every connected component of the legs in the solution that does not contain
+  // the outside. Returns true if such a component exists.
   bool cut_off_cycles(const double* x) {
     std::vector<int> component(places_);
     std::iota(component.begin(), component.end(), 0);

@@ -8,7 +8,7 @@
 namespace grove::detail {
 namespace {
 
-// Keeps the distances to an agent's ports below 16 MB.
+// Maximum of stops * states for ports: keeps the distances to the ports of an agent below 16 MB.
 constexpr int kMaxPortStates = 1 << 20;
 
 }  // namespace
@@ -29,7 +29,7 @@ CostMatrix cost_matrix(const Instance& instance, AgentIndex agent,
   };
   for (int stop = 0; stop < n; ++stop) fill_column(stop, distances.to_task(who.stops[stop]));
   if (!instance.rests_on_last_stop(agent)) fill_column(n, distances.to_rest(agent));
-  // Work in progress is completed first.
+  // An agent that starts during a task execution completes it first.
   if (world.is_working(who.start))
     for (int stop = 0; stop < n; ++stop)
       if (who.stops[stop] != world.work(who.start).task) matrix.cost(n, stop) = kNever;
@@ -95,7 +95,8 @@ int common_parity(const CostMatrix& matrix) {
   const int n = matrix.stops();
   const auto odd = [&](int row, int column) { return matrix.cost(row, column) & 1; };
   const auto sum = [&](int from, int to) { return odd(from, n) ^ odd(n, to); };
-  const int more = n > 1 ? odd(0, 1) ^ sum(0, 1) : 0;  // added for each leg between stops
+  const int more =
+      n > 1 ? odd(0, 1) ^ sum(0, 1) : 0;  // constant part of the parity of each leg between stops
   int parity = (n - 1) * more & 1;
   for (int stop = 0; stop < n; ++stop) {
     parity ^= sum(stop, stop);

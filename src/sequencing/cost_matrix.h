@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cost matrix of one agent's sequencing problem: shortest legs between its stops, without other
-// agents.
+// Cost matrix of the sequencing problem of one agent: least costs of the legs between its stops,
+// without other agents.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,16 @@
 
 namespace grove::detail {
 
-// Least cost of each leg of one agent, in steps; kNever if there is no path. A leg costs the
-// shortest distance, or the least distance from any base state on the stop that it leaves.
-// Row-major (n+1) x (n+1): entry (i, j) from stop i to stop j; row n from the agent's start; column
-// n to its destination (zero for an MG agent, which finishes on a stop). Entry (n, n) matters only
-// for n = 0.
+// Least cost of each leg of one agent, in steps; kNever if no path exists. A leg from a stop costs
+// the least distance from any base state on this stop. Row-major (n+1) x (n+1) for n stops: entry
+// (i, j) is the leg from stop i to stop j; row n has the legs from the start of the agent, and
+// column n those to its place of rest (zero if the agent rests on its last stop). Entry (n, n) is
+// used only if n = 0.
 //
-// If agents turn, the cost of what follows a stop depends on the heading in which the agent is
-// there. Then a matrix may have several *ports* per stop, one for each heading: entry (i, j) from
-// port i to port j, ports 0 .. p - 1 being those of stop 0, and so on. Such a matrix is exact; one
-// without ports holds the least costs over the ports.
+// If agents turn, the cost after a stop depends on the heading in which the agent is on it. Then a
+// matrix can have p *ports* per stop, one for each heading: entry (i, j) is the leg from port i to
+// port j, and stop s has the ports p * s, ..., p * s + p - 1. Such a matrix is exact. A matrix with
+// one port per stop holds least costs over the headings.
 struct CostMatrix {
   // Square, row-major.
   class Matrix {
@@ -44,7 +44,7 @@ struct CostMatrix {
   };
 
   Matrix cost;
-  int ports = 1;  // of each stop
+  int ports = 1;  // number of ports of each stop
 
   int stops() const { return (cost.size() - 1) / ports; }
   Time from_start(int port) const { return cost(cost.size() - 1, port); }
@@ -54,20 +54,23 @@ struct CostMatrix {
   StopSet all() const { return all_stops(stops()); }
 };
 
+// Returns the matrix with one port per stop.
 CostMatrix cost_matrix(const Instance& instance, AgentIndex agent, const DistanceFields& distances);
-// The matrix with ports, if the agent turns, distances to the ports are known and not too many, and
-// the agent does not start within a turn (it could work there and turn no further). Otherwise
-// cost_matrix().
+// Returns the matrix with ports if the agent turns, distances to ports are available and take
+// little enough memory, and the agent does not start within a turn (it could execute a task there
+// without completing the turn). Otherwise returns cost_matrix().
 CostMatrix port_matrix(const Instance& instance, AgentIndex agent, const DistanceFields& distances);
-// The matrix of least costs over the ports. Equal to `matrix` if that has one port per stop.
+// Returns the matrix of least costs over the ports, which is `matrix` if it has one port per stop.
 CostMatrix min_matrix(const CostMatrix& matrix);
 
-// Returns the cost of a complete sequence, kNever if one of its legs has no path.
+// Returns the cost of a complete sequence; kNever if one of its legs has no path. Requires one port
+// per stop.
 Time sequence_cost(const CostMatrix& matrix, const Sequence& sequence);
 
-// Returns the parity of every complete sequence, or -1 if they need not share one. They share one
-// if the parity of each leg is the sum of a number of its first stop and a number of its last stop,
-// because each stop is entered once and left once.
+// Returns the parity of the cost of every complete sequence, or -1 if no common parity is known.
+// All sequences have a common parity if the parity of each leg is the sum of a number for its first
+// stop and a number for its last stop, because a sequence enters and leaves each stop once. Returns
+// -1 for a matrix with several ports per stop.
 int common_parity(const CostMatrix& matrix);
 
 }  // namespace grove::detail

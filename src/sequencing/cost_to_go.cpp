@@ -2,15 +2,17 @@
 // Stores of costs to go: table, graph, graph by direct legs.
 //
 // The table (held_karp.cpp) holds all states or none. The graph (sequence_dag.cpp) is rebuilt with
-// a greater cost limit each time more is needed. The limit admits about as many new states as there
-// were, so that all builds together cost little more than the last one. Each build holds every
-// sequence up to its limit, so a greater limit never has a smaller outside_bound().
+// a greater cost limit whenever outside_bound() must rise. The new limit is chosen to admit about
+// as many new states as the graph already has, so that all builds together cost little more than
+// the last one. Each build holds every sequence up to its limit, so a greater limit never gives a
+// smaller outside_bound().
 //
 // If the graph of all sequences becomes too large, a graph by direct legs replaces it. It holds all
 // states that a path of the class can reach within the limit. So its outside_bound() is a lower
 // bound on paths instead of sequences, and its cost to go of a state is a lower bound on the paths
-// that continue from there. If that graph becomes too large as well, it is not extended further:
-// extend() fails, now and whenever as much is requested again, so that no time or memory is wasted.
+// that continue from this state. If the graph by direct legs becomes too large as well, extend()
+// fails, and fails immediately when it is called again with the same or a greater reach, so that no
+// time or memory is spent.
 #include "sequencing/cost_to_go.h"
 
 #include <algorithm>
@@ -39,11 +41,11 @@ class CostToGo::Store {
   virtual Time relaxed_bound() const = 0;
   virtual Time outside_bound() const = 0;
   virtual Time cost_to_go(StopSet left, int port) const = 0;
-  // Returns a store with outside_bound() > `cost_limit`, or nullptr if it could not be built. Call
-  // only if this store has outside_bound() <= `cost_limit`.
+  // Returns a store with outside_bound() > `cost_limit`, or nullptr if none could be built. Call
+  // only if outside_bound() <= `cost_limit`.
   virtual std::shared_ptr<const Store> extended(Time cost_limit, const Limits& limits) const = 0;
   virtual bool is_all_or_nothing() const { return false; }
-  // Returns a store for a sequence class, or nullptr if this store serves it.
+  // Returns a store for a sequence class, or nullptr if this store can be used for it.
   virtual std::shared_ptr<const Store> of_class(const SequenceClass&) const { return nullptr; }
 
  protected:
@@ -97,7 +99,7 @@ class CostToGo::Graph : public Store {
     if (direct_) other->dag_ = nothing_known();
     return other;
   }
-  // Does nothing if there are no direct legs.
+  // Does nothing if no direct legs are available.
   void turn_to_direct_legs() {
     if (make_direct_) direct_ = std::make_shared<const DirectLegs>(make_direct_(), matrix());
   }
@@ -139,12 +141,12 @@ class CostToGo::Graph : public Store {
 
   std::shared_ptr<const OneTreeRelaxation> relaxation_;
   MakeDirectLegs make_direct_;                // may be empty
-  std::shared_ptr<const DirectLegs> direct_;  // once the graph of all sequences was too large
+  std::shared_ptr<const DirectLegs> direct_;  // set after the graph of all sequences was too large
   SequenceClass sequence_class_;
   std::shared_ptr<const SequenceDag> dag_;
 };
 
-// Costs to go along one given order, without the stops visited already.
+// Costs to go along one given order, restricted to the stops left.
 class CostToGo::Ordered : public Store {
  public:
   Ordered(std::shared_ptr<const CostMatrix> matrix, Sequence order)
@@ -283,7 +285,8 @@ bool CostToGo::extend(Time cost_limit, const Limits& limits) {
   return true;
 }
 
-// A table is kept: it is complete or empty, and a search does not run on an empty one.
+// A table is kept: it is complete or empty, and no search uses an empty table, so its results do
+// not depend on earlier calls of extend().
 void CostToGo::reset() {
   if (store_->is_all_or_nothing()) return;
   resets_ = true;

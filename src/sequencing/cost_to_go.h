@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Exact costs to go of one agent: the least cost of completing a sequence from a state.
+// Exact costs to go of one agent: the least cost to complete a sequence from a state, which is a
+// stop and the set of stops left.
 #pragma once
 
 #include <cstddef>
@@ -16,58 +17,61 @@
 namespace grove::detail {
 
 // Exact costs to go of one agent, for every sequence cheaper than outside_bound(). Small problems
-// use a table of all states, larger ones a sequence graph that grows on demand. Initially it is
-// empty: call extend(). Any number of threads may read an object while no thread extends it. Copies
-// share the stores built so far, and each copy is extended separately: a copy may be passed to
-// another thread.
+// use a table of all states, larger ones a sequence graph that grows on demand. Initially the store
+// is empty, so call extend(). Any number of threads may read an object while no thread changes it.
+// Copies share the stores built so far but are widened separately, so different threads may use
+// different copies.
 class CostToGo {
  public:
-  // Returns the direct legs of the agent over the same stops (direct_legs.h). Called at most once.
+  // Returns the direct legs of the agent (direct_legs.h) between the same stops.
   using MakeDirectLegs = std::function<CostMatrix()>;
 
-  // A table, if one is used, is built in `table` if it has room, or read from there. With `direct`,
-  // a graph that grows beyond kMaxStates is replaced by a graph of the routes of an agent that
-  // visits each stop that it passes.
+  // `table`: memory for the table, if it has room; a table that is already complete there is only
+  // read. `direct`: if given, a graph with more than kMaxStates states is replaced by a graph by
+  // direct legs, i.e. of the routes of an agent that visits each plain stop that it passes.
   explicit CostToGo(CostMatrix matrix, SharedArray table = {}, MakeDirectLegs direct = {});
-  // Returns the costs to go of one class of sequences, because a graph by direct legs is valid for
-  // one class only. Returns nullopt if *this serves every class.
+  // Returns the costs to go for one sequence class, because a graph by direct legs is valid for one
+  // class only. Returns nullopt if *this can be used for `sequence_class`.
   std::optional<CostToGo> of_class(const SequenceClass& sequence_class) const;
-  // Size in bytes of a table for `stops` stops with `ports` ports each, with 16-bit entries (the
-  // largest costs need wider ones). 0: no table is used.
+  // Size in bytes of a table for `stops` stops with `ports` ports each, with 16-bit entries
+  // (matrices with very large costs need 32-bit entries). 0: no table is used.
   static std::size_t table_bytes(int stops, int ports);
-  // For tests: uses a graph also if a table would do, and one by direct legs if `direct` is given.
-  // The results must be the same.
+  // For tests: uses a graph even for small problems, and a graph by direct legs if `direct` is
+  // given. The results must be the same.
   static CostToGo as_graph(CostMatrix matrix, MakeDirectLegs direct = {});
-  // Costs to go of one complete sequence, to find a path without a proof: outside_bound() is 0. A
-  // state is known if its stop precedes all stops left in `order`; its cost to go is the cost of
-  // visiting the stops left in this order.
+  // Returns the costs to go along one complete sequence, for searches that find a path but prove
+  // nothing: outside_bound() is 0. A state is known if its stop precedes all its stops left in
+  // `order`; its cost to go is the least cost through the stops left in this order.
   static CostToGo in_order(const CostMatrix& matrix, Sequence order);
   const CostMatrix& matrix() const;
 
-  // Proven lower bound on every sequence of the class with a state outside the store; for a graph
-  // by direct legs, on every such path. kNever: there is no such sequence or path.
+  // Proven lower bound on the cost of every sequence with a state outside the store; for a graph by
+  // direct legs, on the cost of every path of its class with such a state. kNever: there is no such
+  // sequence or path.
   Time outside_bound() const;
-  // The least cost from `port` (equal to the stop if the matrix has one port per stop) through all
-  // stops of `left` (without the stop itself) to the end, over the known routes. Returns kNever if
-  // there is none, or if the state is outside.
+  // The least cost from `port` through all stops of `left`, which does not contain the stop of the
+  // port, to the end, over the known routes. With one port per stop the port is the stop. Returns
+  // kNever if no route is known, also if the state is outside the store.
   Time cost_to_go(StopSet left, int port) const;
 
-  // A lower bound on every complete sequence (relaxation_bound() in rtsp.h), independent of the
-  // states known.
+  // A proven lower bound on the cost of every complete sequence (relaxation_bound() in rtsp.h),
+  // independent of the known states.
   Time relaxed_bound() const;
 
-  // Extends the store. Afterwards outside_bound() > `cost_limit`, and never less than before.
-  // Returns false and changes nothing if a limit of the run was reached, or if the graph had more
-  // than kMaxDirectStates states. Requires `cost_limit` < kNever.
+  // Extends the store such that outside_bound() > `cost_limit`; outside_bound() never decreases.
+  // Returns false and changes nothing if a limit of the run was reached, if the graph would have
+  // more than kMaxDirectStates states, or for a store of in_order(). Requires `cost_limit` <
+  // kNever.
   bool extend(Time cost_limit, const Limits& limits);
 
-  // Undoes extend() since mark(), or since the beginning, because the results of a search depend on
-  // how much is known. A later extend() does the same as before, mostly from memory.
+  // Undoes all calls of extend() since mark(), or since construction, because the results of a
+  // search depend on the known states. Has no effect on a table. Repeated calls of extend() give
+  // the same stores as before, and the latest of them are cached.
   void reset();
-  // Makes the present state the one that reset() restores.
+  // Makes the current store the one that reset() restores.
   void mark() { marked_ = store_; }
 
-  static constexpr std::size_t kMaxStates = std::size_t{1} << 15;  // about 0.1 s
+  static constexpr std::size_t kMaxStates = std::size_t{1} << 15;  // about 0.1 s to build
   static constexpr std::size_t kMaxDirectStates = std::size_t{1} << 16;
 
  private:
@@ -87,9 +91,10 @@ class CostToGo {
 
   std::shared_ptr<const Store> store_;
   std::shared_ptr<const Store> marked_;
-  std::vector<Extension> extended_;  // latest first; filled only once reset() was called
+  std::vector<Extension> extended_;  // latest first; filled only after the first reset()
   bool resets_ = false;
-  Time refused_ = kNever;  // extend() to this or more failed without a limit of the run
+  Time refused_ =
+      kNever;  // least `cost_limit` for which extend() failed, except at a limit of the run
 };
 
 }  // namespace grove::detail

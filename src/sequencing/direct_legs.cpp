@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Direct legs by breadth-first search.
 //
-// The search runs from each port over the agent's world. It enters a state on the place of a plain
-// stop but does not leave it, unless the search began on this stop. A leg that leaves a stop does
-// so in a base state of the stop: in the heading of the port, or, if a stop has one port, in any
-// heading. So every path from i to j that passes no other plain stop is found, and its length is at
-// least the depth of j. (The search also enters work that is not the agent's own, and passes
-// through states of work. That only makes depths smaller.)
+// One search runs from each port over the world of the agent. It enters states on the place of a
+// plain stop but leaves them only if it started on this stop. A leg leaves a stop in a base state
+// on it: in the heading of the port or, if stops have one port, in any heading. So the search
+// covers every path from i to j that passes no other plain stop, and the length of the path is at
+// least the depth of j. (The search also covers executions of tasks of other agents, which only
+// makes depths smaller.)
 //
 // An agent that starts on a plain stop visits this stop at time 0, so all its other legs from the
 // start are kNever.

@@ -24,7 +24,8 @@ class LocalSearch {
   }
 
  private:
-  // Sums of legs without a path stay comparable: the more of them, the higher the cost.
+  // Returns the cost of a leg as a 64-bit integer, so that sums with legs of kNever do not
+  // overflow: a sequence with more such legs costs more.
   std::int64_t leg(std::ptrdiff_t from, std::ptrdiff_t to) const {
     return matrix_.cost(row(from), row(to));
   }
@@ -65,7 +66,7 @@ class LocalSearch {
     return sum;
   }
 
-  // Makes the first change that lowers the cost. Returns false if there is none.
+  // Makes the first move of a piece that lowers the cost. Returns false if none does.
   bool move_a_piece() {
     const std::ptrdiff_t n = std::ssize(sequence_);
     for (std::ptrdiff_t size = 1; size <= std::min(kMaxSegment, n - 1); ++size)

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-// The Held-Karp table.
+// Solves rTSPs with the Held-Karp table.
 //
 // Held and Karp (1962), backwards: h[S][v] is the least cost from stop v through all stops of S (v
 // not in S) to the end,
 //
 //   h[{}][v] = cost(v, end),   h[S][v] = min over u in S of cost(v, u) + h[S - u][u].
 //
-// The recursion ranges over all orders of S, so h is exact. The best member of a class costs its
-// prefix plus the least of cost(last, u) + h[left - u][u] over the next stops u that it allows:
-// O(n) per query once the table is built. The table runs backwards because the partition method
-// fixes prefixes.
+// The recursion considers all orders of S, so h is exact. The cost of the best member of a class is
+// that of its prefix plus the least cost(last, u) + h[left - u][u] over the next stops u that the
+// class allows, which takes O(n) per query after the table is built. The recursion runs backwards
+// because the partition method fixes prefixes.
 //
-// *Cost.* 2^n * n^2 / 2 additions. For each S the loop over u is outside and the loop over v
-// inside, so that the compiler turns the latter into vector minima over a row. 16-bit entries, used
-// if every cost of a sequence fits, give eight stops per SSE2 instruction and halve the memory.
-// Rows are stored without padding: a row is stored at full vector width, and the part beyond its
-// end is overwritten by the next row, because S ascends.
+// *Cost.* 2^n * n^2 / 2 additions. For each S the loop over u is the outer one and the loop over v
+// the inner one, so that the compiler vectorizes the inner loop as minima over a row. If every cost
+// of a sequence fits, entries have 16 bits: one SSE2 instruction then processes eight stops, and
+// the table takes half the memory. Rows have no padding. Each row is written at full vector width,
+// and the next row overwrites the excess, because S ascends.
 #include "sequencing/held_karp_table.h"
 #include "sequencing/rtsp.h"
 #include "sequencing/sequence_class.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The Held-Karp table; its recursion is described in held_karp.cpp.
+// The Held-Karp table. The head of held_karp.cpp describes its recursion.
 #pragma once
 
 #include <algorithm>
@@ -19,37 +19,38 @@ namespace grove::detail {
 
 inline constexpr int kMaxTableStops = 26;  // 3.5 GB of 16-bit entries; no caller needs more
 
-// Marks an unreachable state. Twice this value still fits, so no sum overflows; every true cost is
-// below it.
+// Entry of an unreachable state. Twice this value fits into an Entry, so no sum of two entries
+// overflows. Every true cost is less.
 template <class Entry>
 inline constexpr Entry kUnreachable = std::numeric_limits<Entry>::max() / 2;
 
-// Upper bound on every finite cost of a sequence: a sequence has one leg from each row of the
-// matrix.
+// Returns an upper bound on every finite cost of a sequence, because a sequence has at most one leg
+// from each row of the matrix.
 inline std::int64_t max_cost(const CostMatrix& matrix) {
   std::int64_t sum = 0;
   for (int row = 0; row < matrix.cost.size(); ++row) {
     Time most = 0;
     for (int column = 0; column < matrix.cost.size(); ++column)
       if (const Time cost = matrix.cost(row, column); cost < kNever) most = std::max(most, cost);
-    sum += most;  // counts all ports of a stop, although a sequence uses only one
+    sum += most;  // includes all ports of a stop, although a sequence uses one
   }
   return sum;
 }
 
-// Whether every cost fits a table with 16-bit entries.
+// True if every cost fits a table with 16-bit entries.
 inline bool fits_narrow_table(const CostMatrix& matrix) {
   return max_cost(matrix) < kUnreachable<std::int16_t>;
 }
 
-// h[left][port]; for ports see CostMatrix. Once built immutable: any thread may read it.
+// Costs to go h[left][port]; for ports see CostMatrix. Immutable after build(): any thread may read
+// it.
 template <class Entry>
 class HeldKarpTable {
  public:
   bool built() const { return table_ != nullptr; }
 
-  // Number of entries of a table, including the overhang of the last vectors. 0: it would be too
-  // large.
+  // Number of entries of a table, including space for full vectors after the last row. 0: the table
+  // would be too large.
   static std::size_t entries(int stops, int ports) {
     const int width = stops * ports;
     return stops > kMaxTableStops || width > kMaxLanes * kLanes
@@ -57,8 +58,8 @@ class HeldKarpTable {
                : (std::size_t{1} << stops) * width + kMaxLanes * kLanes;
   }
 
-  // Builds the table, in `shared` if it has room. Returns false, and builds nothing, if a limit was
-  // reached.
+  // Builds the table, in `shared` if that has room. Returns false, and builds nothing, if a limit
+  // was reached or memory is not available.
   bool build(const CostMatrix& matrix, const Limits& limits, SharedArray shared = {}) {
     stops_ = matrix.stops();
     ports_ = matrix.ports;
@@ -80,8 +81,8 @@ class HeldKarpTable {
     return built();
   }
 
-  // The least cost from `port` through all stops of `left` to the end. Returns kNever if there is
-  // no path.
+  // The least cost from `port` through all stops of `left` to the end; kNever if no such route
+  // exists.
   Time cost_to_go(StopSet left, int port) const {
     const Entry cost = table_[left * static_cast<StopSet>(stops_ * ports_) + port];
     return cost == kUnreachable<Entry> ? kNever : Time{cost};
@@ -103,7 +104,7 @@ class HeldKarpTable {
                        : fill_lanes<4>(table, matrix, limits);
   }
 
-  // Selects the least number of vectors that hold a row.
+  // Fills the table with the least number of vectors that holds a row.
   template <int kPorts, int kCount = 1>
   bool fill_lanes(Entry* table, const CostMatrix& matrix, const Limits& limits) const {
     if constexpr (kCount < kMaxLanes)
@@ -134,7 +135,7 @@ class HeldKarpTable {
     return true;
   }
 
-  // The cost matrix by columns: entry u * width + v is the leg from v to u.
+  // Returns the cost matrix by columns: entry u * width + v is the leg from port v to port u.
   static std::vector<Entry> columns(const CostMatrix& matrix, int width) {
     const int n = matrix.stops() * matrix.ports;
     std::vector<Entry> into(static_cast<std::size_t>(n) * width, kUnreachable<Entry>);

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: MIT
-// The K best joint sequences: one rank per agent, cheapest sum first (paper, Algorithm 3).
+// The K best joint sequences (paper, Algorithm 3). A joint sequence is a vector of ranks, one per
+// agent.
 //
-// *Enumeration.* Increasing any one rank of a vector never lowers its cost, so a best-first search
-// from the zero vector finds all vectors in order. The paper increases *every* rank of each vector
-// and so reaches {1,1,0} twice. Here a vector has exactly one parent: itself with its last nonzero
-// rank one less. So if agent j has the last nonzero rank of a vector, its children increase the
-// rank of j or of an agent after j. A child whose rank is beyond the end of its agent's list is
-// left out. All its descendants are beyond that end as well, so no other vector is lost.
+// *Enumeration.* A greater rank never has a lower cost, so a best-first search from the zero vector
+// finds all vectors in order of cost. The paper increases *every* rank of each vector and so
+// reaches {1,1,0} twice. Here each vector except zero has exactly one parent: the vector with its
+// last nonzero rank reduced by one. So if agent j has the last nonzero rank of a vector, the
+// children of the vector increase the rank of j or of an agent after j. A child is omitted if its
+// rank is beyond the end of the list of its agent. All its descendants are beyond that end as well,
+// so no valid vector is lost.
 //
-// *Entries.* An entry is a delta: a vector returned (its base) plus the rank of one agent after the
-// last nonzero rank of the base. With b the cost of the base, its key is b + (agent's bound on that
-// rank) - (cost of the agent's best), never above its true cost. Keys may become stale as the lists
-// learn more. When an entry is on top of the queue, it is brought up to date and resolved up to its
-// key. It is returned only if its cost is known and equals the key. So the order is right, and the
-// key of the top is a proven lower bound on the next cost.
+// *Entries.* An entry of the queue is a difference: a vector that was returned earlier (its base),
+// and the rank of one agent after the last nonzero rank of the base. Its key is (cost of the base)
+// + (bound on the cost of that rank) - (cost of the agent's best sequence), which is at most its
+// true cost. A key becomes stale when a list improves its bound. The entry at the top of the queue
+// is updated and resolved up to its key. It is returned only if its cost is known and equals the
+// key. Therefore the order is correct, and the key at the top is a proven lower bound on the next
+// cost.
 #include "sequencing/k_best_joint_sequences.h"
 
 #include <algorithm>
@@ -61,8 +64,8 @@ class KBestJointSequences::Queue {
   }
 
  private:
-  // The ranks of returned_[base], which are zero from `agent` on, except that `agent` has rank
-  // `rank`.
+  // The vector returned_[base], which is zero from `agent` on, with `rank` in place of the rank of
+  // `agent`.
   struct Entry {
     std::uint32_t base = 0;
     std::uint32_t agent = 0;
@@ -73,7 +76,7 @@ class KBestJointSequences::Queue {
     Entry entry;
   };
 
-  // The cost of the zero vector, or a lower bound on it, from the bounds of the lists.
+  // Returns the cost of the zero vector, or a lower bound on it if a list has not resolved rank 0.
   Cost cost_of_best() const {
     Cost sum = 0;
     for (const KBestSequences& list : agents_) {
@@ -118,7 +121,7 @@ class KBestJointSequences::Queue {
     return {cost, ranks(index)};
   }
 
-  // Index 0 is the vector of zeros, and every chain of bases ends there.
+  // Index 0 is the zero vector; every chain of bases ends there.
   std::vector<std::uint32_t> ranks(std::uint32_t index) const {
     std::vector<std::uint32_t> ranks(agents_.size(), 0);
     for (; index != 0; index = returned_[index].entry.base)

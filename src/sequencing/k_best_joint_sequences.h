@@ -14,31 +14,33 @@
 
 namespace grove::detail {
 
+// One sequence for each agent.
 struct JointSequence {
   Cost cost = 0;                     // sum of the agents' sequence costs
-  std::vector<std::uint32_t> ranks;  // by AgentIndex: rank among the agent's K best sequences
+  std::vector<std::uint32_t> ranks;  // by AgentIndex: rank in the agent's KBestSequences
 };
 
-// Enumerates every combination of the agents' sequences exactly once, in order of cost. One thread
-// at a time.
+// Enumerates all combinations of the agents' sequences exactly once, in ascending order of cost.
+// One thread at a time.
 class KBestJointSequences {
  public:
-  // `limits`, and all that `agents` refer to, must outlive this.
+  // `agents`: one list per agent, by AgentIndex. `limits`, and all objects to which `agents` refer,
+  // must outlive this.
   KBestJointSequences(std::vector<KBestSequences> agents, const Limits& limits);
   ~KBestJointSequences();
   KBestJointSequences(KBestJointSequences&&) noexcept;
 
-  // Returns a proven lower bound on the cost of the next joint sequence, without new work.
-  // kInfiniteCost: proven that there is none. Never decreases.
+  // Returns a proven lower bound on the cost of the next joint sequence, without further search.
+  // kInfiniteCost: proven that none is left. Never decreases.
   Cost lower_bound() const;
-  // Returns the next best joint sequence. Returns nullopt if all were returned (then lower_bound()
-  // is kInfiniteCost) or a limit was reached.
+  // Returns the next joint sequence in order of cost. Returns nullopt if all were returned
+  // (lower_bound() is then kInfiniteCost) or a limit was reached.
   std::optional<JointSequence> next();
 
-  // Returns the agent's sequence of a rank that next() has returned.
+  // Returns the agent's sequence of this rank, which next() must have returned.
   const Sequence& sequence(AgentIndex agent, std::uint32_t rank);
 
-  // Number of rTSPs solved so far, over all agents.
+  // Number of calls of rTSP solvers so far, over all agents.
   std::int64_t rtsp_calls() const;
 
  private:

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: MIT
-// The K best sequences of one agent by the partition method.
+// The K best sequences of one agent, computed by the partition method.
 //
-// Lawler (1972), after Murty (1968); the paper's Algorithm 2, with its branches indexed from the
-// start. The queue holds classes that partition all sequences not yet returned. The best member s
-// of the cheapest class is the next sequence. The class without s is split into
+// Lawler (1972), after Murty (1968); Algorithm 2 of the paper, with its branches indexed from the
+// start. The queue holds classes that partition the sequences that have not been returned. The best
+// member s of the cheapest class is the next sequence. The class without s is split into the
+// classes
 //
-//   begins like s up to its i-th stop, then not s[i]   (and, at the class's own place, not what the
-//                                                       class forbade there already)
+//   the first i stops are those of s, and the next stop is not s[i]; if i is the length of the
+//   prefix of the class, the next stop is also none of those that the class forbids
 //
-// for each position i from the class's prefix on, so every sequence is returned exactly once. The
-// branch at the last position would forbid the only stop left: it is empty and never made.
+// for each position i after the prefix of the class, so every sequence is returned exactly once.
+// The branch at the last position would forbid the only stop left, so it is empty and omitted.
 //
-// *Laziness.* A class enters the queue only with a proven lower bound, the cost of its parent. When
+// *Lazy evaluation.* A class enters the queue with only a proven lower bound, the cost of s. When
 // it reaches the top, the back end is called with that bound as the cutoff. The answer is the exact
-// cost or a better bound, and in both cases the class is pushed again under it. Keys never exceed
-// the true optimum of their class, and a class is returned only if its key is exact and no key is
-// smaller. Hence the order is right, the key of the top is a lower bound on all later sequences,
-// and the back ends never prove more than the order requires. Among equal keys exact classes go
-// first, because they need no more work.
+// cost or a better bound, and in both cases the class is pushed again with the answer as its key.
+// Keys never exceed the optimum of their class, and the best member of a class is returned only if
+// its key is exact and no key is smaller. Hence the order is correct, the key at the top is a lower
+// bound on all later sequences, and the back ends prove no more than the order requires. Among
+// equal keys exact classes come first, because they require no further search.
 #include "sequencing/k_best_sequences.h"
 
 #include <algorithm>
@@ -60,8 +61,8 @@ class KBestSequences::Partition {
   enum Knowledge : std::uint8_t { kExact, kBounded };
   using Key = std::pair<Time, Knowledge>;
 
-  // A class: it begins with the first `length` stops of the sequence of rank `parent`, and the next
-  // stop is not in `forbidden`.
+  // The class of sequences that begin with the first `length` stops of the sequence of rank
+  // `parent` and whose next stop is not in `forbidden`.
   struct Entry {
     StopSet forbidden;
     std::uint32_t parent;
@@ -100,7 +101,7 @@ class KBestSequences::Partition {
     class_.prefix.assign(parent.begin(), parent.begin() + entry.length);
   }
 
-  // Splits the rest of the entry's class, without the sequence just found.
+  // Splits the class of the entry, without the sequence just found.
   void branch(const Entry& entry, Time cost) {
     const Sequence& sequence = found_.back().sequence;
     const auto parent = static_cast<std::uint32_t>(found_.size() - 1);

@@ -10,30 +10,31 @@
 
 namespace grove::detail {
 
-// The list of all complete sequences of one agent in order of cost. Rank 0 is the best. One thread
-// at a time. After an exception (std::bad_alloc) its bounds are no longer valid: discard it.
+// The list of all complete sequences of one agent in ascending order of cost, from rank 0. One
+// thread at a time. Discard the list after an exception (std::bad_alloc), because its bounds are
+// then not valid.
 class KBestSequences {
  public:
-  // `matrix`, for which the solver was made, and `limits` must outlive the list.
+  // `solver` must have been made for `matrix`. `matrix` and `limits` must outlive the list.
   KBestSequences(std::unique_ptr<RtspSolver> solver, const CostMatrix& matrix,
                  const Limits& limits);
   ~KBestSequences();
   KBestSequences(KBestSequences&&) noexcept;
   KBestSequences& operator=(KBestSequences&&) noexcept;
 
-  // Returns a proven lower bound on the cost of the sequence of this rank, without new work.
+  // Returns a proven lower bound on the cost of the sequence of this rank, without further search.
   // kNever: proven that no such sequence exists. Non-decreasing in rank; all unknown ranks have the
-  // bound of the first unknown one.
+  // same bound.
   Time cost_bound(std::size_t rank) const;
-  // Whether the sequence of this rank is computed. Then cost_bound() is its cost.
+  // True if the sequence of this rank is computed; cost_bound() is then its cost.
   bool known(std::size_t rank) const;
-  // Works until `rank` is known, or its cost is proven to exceed `cutoff` (kNever: no cutoff), or
-  // it is proven not to exist, or a limit is reached. Returns cost_bound(rank).
+  // Searches until `rank` is known, its cost is proven to exceed `cutoff` (kNever: no cutoff), it
+  // is proven that no such sequence exists, or a limit is reached. Returns cost_bound(rank).
   Time resolve(std::size_t rank, Time cutoff);
   // Returns the sequence of a known rank. The reference is valid as long as the list lives.
   const Sequence& sequence(std::size_t rank);
 
-  // Number of rTSPs solved so far.
+  // Number of calls of the solver so far.
   std::int64_t rtsp_calls() const;
 
  private:

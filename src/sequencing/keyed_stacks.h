@@ -7,7 +7,8 @@
 
 namespace grove::detail {
 
-// Pops an entry of the least key; of several, the one pushed last.
+// pop() removes an entry of the least key; among several, the one pushed last. One thread at a
+// time.
 template <class Key, class Entry>
 class KeyedStacks {
  public:
@@ -25,7 +26,7 @@ class KeyedStacks {
   }
 
  private:
-  std::map<Key, std::vector<Entry>> stacks_;  // none is empty
+  std::map<Key, std::vector<Entry>> stacks_;  // no stack is empty
 };
 
 }  // namespace grove::detail

@@ -1,45 +1,47 @@
 // SPDX-License-Identifier: MIT
-// Held and Karp's 1-tree bound (1970, 1971) for a path instead of a tour: spanning trees under node
-// potentials.
+// The 1-tree bound of Held and Karp (1970, 1971), for a path instead of a tour: spanning trees
+// under node potentials.
 //
 // *Bound.* A path from `from` through all stops of a set S to the end consists of a first leg, a
 // path that spans S, and a last leg. A spanning path is a spanning tree, so
 //
 //   minimum spanning tree of S + min over u, w in S of (first leg to u + last leg from w)
 //
-// (u and w different stops unless |S| = 1) is a lower bound. Adding a potential p(u) to every leg
-// end at u changes the cost of every path by the same amount, 2 p(u) for each u in S, because the
-// path touches every stop of S twice. It does not change every *tree* by the same amount. So for
-// any potentials
+// (u and w different stops unless |S| = 1) is a lower bound. If a potential p(u) is added to each
+// leg for each of its ends at u, the cost of every path changes by the same amount, 2 p(u) for each
+// u in S, because every stop of S is an end of two legs. The weights of different *trees* change by
+// different amounts. So for any potentials
 //
 //   min tree with potentials + first and last leg with theirs - 2 * sum of p over S
 //
-// is a lower bound too, and good potentials make it nearly tight. They come from subgradient ascent
-// over all stops: raise p where the tree branches, lower it at leaves. Potentials that are good for
-// the whole set are good enough for its subsets, and the bound holds for any potentials.
+// is a lower bound, too, and with good potentials it is nearly tight. Subgradient ascent over the
+// set of all stops computes them: it raises p where the tree branches and lowers p at leaves. The
+// potentials for the whole set are also used for its subsets, where the bound holds as well,
+// because it holds for any potentials.
 //
-// *First stop given.* A path that begins at u in S and visits the rest of S before the end consists
-// of a path that spans S, from u, and a last leg from another stop. It touches u once less. So the
-// minimum spanning tree with potentials, plus the last leg with its own potential, plus p(u), minus
-// twice the sum, is a lower bound.
+// *First stop given.* A path that begins at u in S and visits the other stops of S before the end
+// consists of a path that spans S, starting at u, and a last leg from another stop. Here u is an
+// end of only one leg. So the minimum spanning tree with potentials, plus the last leg with its own
+// potential, plus p(u), minus twice the sum, is a lower bound.
 //
-// *Fixed point.* Costs are integers times kScale and potentials are integers, so the bound is
-// computed exactly. Rounding it up to a multiple of kScale is sound, because costs are integers.
+// *Fixed point.* Costs are stored as multiples of kScale and potentials as integers, so the bound
+// is computed exactly. Rounding it up to a multiple of kScale is sound, because true costs are
+// integers.
 //
-// *Balancing.* Edges of the tree take the cheaper direction, so the matrix need not be symmetric.
-// But if tasks take time, each leg to a stop includes the duration of that stop's task, and the
-// cheaper direction includes only the lesser of two durations. So legs are *balanced* first: a
-// number s(u) is added to every leg from u and subtracted from every leg to u. This changes no path
-// through u. A path that begins at u costs s(u) more, so its bound is lowered by s(u). With s(u)
-// equal to half of the mean excess of legs to u over legs from u, the duration is divided evenly
-// between the two legs at a stop.
+// *Balancing.* An edge of the tree has the cost of the cheaper direction, so the matrix need not be
+// symmetric. However, if tasks take time, each leg to a stop includes the duration of the task at
+// this stop, and the cheaper direction includes only the lesser of two durations. So legs are
+// *balanced* first: a number s(u) is added to every leg from u and subtracted from every leg to u.
+// This does not change the cost of a path through u. The cost of a path that begins at u rises by
+// s(u), so its bound is reduced by s(u). If s(u) is half of the mean excess of legs to u over legs
+// from u, the duration is divided evenly between the two legs at a stop.
 //
-// *Ports.* If stops have ports (cost_matrix.h), a leg of the relaxation takes the cheapest port at
-// each end. Two legs that meet at a stop need not meet at one port, so the turn between them is
-// lost. But s may differ from port to port: what a path adds at the port where it leaves a stop it
-// subtracts at the port where it came, and these are the same port. If the relaxed path leaves a
-// port more often than it enters it, a greater s raises its cost. So the ascent moves s together
-// with p.
+// *Ports.* If stops have ports (cost_matrix.h), a leg of the relaxation uses the cheapest port at
+// each end. Two legs at a stop can use different ports, so the relaxation omits the turn between
+// them. To recover part of it, s can differ from port to port: a real path enters and leaves a stop
+// by the same port, so that the s added to one leg and the s subtracted from the other cancel out.
+// If the relaxed path leaves a port more often than it enters it, a greater s raises its cost. So
+// the ascent changes s together with p.
 #include "sequencing/one_tree_relaxation.h"
 
 #include <algorithm>
@@ -55,13 +57,13 @@ namespace {
 constexpr int kSteps = 400;
 constexpr std::int64_t kScale = 256;
 // Cost of a leg that does not exist. It is far above any sum of real legs and potentials (65 legs
-// of 2^30 steps times kScale are below 2^45, potentials are kept within kMaxPotential), and 130
+// of 2^30 steps, times kScale, are below 2^45, and kMaxPotential limits the potentials), and 130
 // times kNoLeg fits into 64 bits.
 constexpr std::int64_t kNoLeg = std::int64_t{1} << 54;
 constexpr std::int64_t kSurelyNoWay = kNoLeg / 2;
 constexpr std::int64_t kMaxPotential = std::int64_t{1} << 43;
 
-// Rounds up: the true cost is an integer.
+// Converts a lower bound to a cost. Rounds up, because the true cost is an integer.
 Time to_cost(std::int64_t fixed_point) {
   if (fixed_point >= kSurelyNoWay) return kNever;
   return static_cast<Time>(std::max<std::int64_t>(0, fixed_point + kScale - 1) / kScale);
@@ -69,16 +71,16 @@ Time to_cost(std::int64_t fixed_point) {
 
 }  // namespace
 
-// A minimum spanning tree by Prim's algorithm: its weight, and its stops in the order in which they
-// joined it.
+// A minimum spanning tree by Prim's algorithm: its weight, and its stops in the order of their
+// insertion.
 struct OneTreeRelaxation::Tree {
   std::int64_t weight = 0;
   int size = 0;
   std::array<Stop, kMaxTasksPerAgent> stops;
-  std::array<Stop, kMaxTasksPerAgent> joined;  // the earlier stop that it joined
+  std::array<Stop, kMaxTasksPerAgent> joined;  // the tree neighbor at insertion
 };
 
-// The cheapest pair of first and last leg, and the stops where they meet the tree.
+// The cheapest pair of a first and a last leg, and their ends in the tree.
 struct OneTreeRelaxation::EndLegs {
   std::int64_t cost = 4 * kNoLeg;
   int first = 0;
@@ -150,7 +152,8 @@ void OneTreeRelaxation::update_weights() {
 OneTreeRelaxation::Tree OneTreeRelaxation::tree(StopSet left) const {
   Tree tree;
   for_each_stop(left, [&](int stop) { tree.stops[tree.size++] = static_cast<Stop>(stop); });
-  // tree.stops[0 .. in_tree-1] are connected. edge[i] of the others is the cheapest edge to those.
+  // tree.stops[0 .. in_tree-1] are connected. For each other i, edge[i] is the cheapest edge from
+  // tree.stops[i] to a connected stop.
   std::array<std::int64_t, kMaxTasksPerAgent> edge;
   const std::int64_t* row = &weight_[tree.stops[0] * stops_];
   for (int i = 1; i < tree.size; ++i) {
@@ -222,7 +225,8 @@ Time OneTreeRelaxation::bound_from(const Tail& tail, int first) const {
                  (stop == tail.nearest_to_end ? tail.second_leg : tail.last_leg) - shift_[first]);
 }
 
-// Counts the cheapest ports of the leg between two rows of edges_.
+// Updates excess.of_port for the two ports of a leg of the relaxed path; `from` and `to` index
+// edges_.
 void OneTreeRelaxation::count_ports(int from, int to, Excess& excess) const {
   if (ports_ == 1) return;
   const int first = from * ports_;
@@ -264,8 +268,9 @@ std::int64_t OneTreeRelaxation::bound_and_excess(Excess& excess) const {
   return tail.tree + ends.cost;
 }
 
-// Subgradient ascent with a geometrically decreasing step and a part of the last direction kept
-// (Volgenant and Jonker 1982). Any potentials and shifts are sound; the best ones found are kept.
+// Subgradient ascent with a geometrically decreasing step size; each direction includes a part of
+// the last subgradient (Volgenant and Jonker 1982). Any potentials and shifts are sound; the best
+// ones are kept.
 void OneTreeRelaxation::ascend() {
   Excess excess;
   Excess last;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// 1-tree lower bounds on completing a sequence: spanning trees under node potentials (Held and Karp
-// 1970; see the .cpp).
+// 1-tree lower bounds on the cost of completing a sequence: spanning trees under node potentials
+// (Held and Karp 1970; see the .cpp).
 #pragma once
 
 #include <cstdint>
@@ -11,40 +11,41 @@
 
 namespace grove::detail {
 
-// Holds its own copy of the costs. Immutable once built: any thread may read it.
+// Holds its own copy of the costs. Immutable: any thread may read it.
 class OneTreeRelaxation {
  public:
-  // The part of a bound over one set of stops that does not depend on where the agent comes from.
+  // The part of a bound over one set of stops that does not depend on the stop from which the agent
+  // comes.
   struct Tail {
-    std::int64_t tree = 0;      // fixed point; all but the first and the last leg
+    std::int64_t tree = 0;      // fixed point; all except the first and the last leg
     int nearest_to_end = 0;     // the stop with the cheapest last leg
-    int second_to_end = 0;      // the stop with the next cheapest; the same if there is no other
-    std::int64_t last_leg = 0;  // costs of these two last legs
+    int second_to_end = 0;      // with the next cheapest; the same if it is the only stop
+    std::int64_t last_leg = 0;  // costs of these two last legs, in fixed point
     std::int64_t second_leg = 0;
   };
 
-  // Optimizes the potentials in about 400 iterations, each with a spanning tree over all stops.
+  // Optimizes the potentials in at most 400 iterations, each with a spanning tree over all stops.
   explicit OneTreeRelaxation(const CostMatrix& matrix);
 
-  // A proven lower bound on every complete sequence. kNever: there is proven to be none.
+  // A proven lower bound on the cost of every complete sequence. kNever: proven that none exists.
   Time root_bound() const { return root_bound_; }
 
   // Returns the tail of `left`, which must not be empty. O(|left|^2).
   Tail tail(StopSet left) const;
   // Returns a proven lower bound on the cost from `from` (a row of the matrix) through all stops of
-  // the tail to the end, if a stop of `next`, a subset of them, comes first. kNever: there is
-  // proven to be no such path. O(|next|).
+  // the tail to the end, with a stop of `next`, a subset of these stops, as the first one. kNever:
+  // proven that no such route exists. O(|next|).
   Time bound(const Tail& tail, StopSet next, int from) const;
   // Returns a proven lower bound on the cost from `first`, a port of a stop of the tail, through
   // the other stops of the tail to the end. Weaker than bound() over the tail of the other stops,
-  // but does not need that tail. O(1).
+  // but does not require that tail. O(1).
   Time bound_from(const Tail& tail, int first) const;
 
  private:
   struct Tree;
   struct EndLegs;
-  // Subgradient of the relaxed path. of_stop: number of legs at the stop, minus two. of_port:
-  // number of legs that leave the port, minus the number that enter it.
+  // Subgradient at the relaxed path. of_stop: number of legs at each stop, minus two. of_port:
+  // number of legs that leave each port, minus the number that enter it.
   struct Excess {
     std::vector<int> of_stop;
     std::vector<int> of_port;
@@ -61,7 +62,7 @@ class OneTreeRelaxation {
   void count_ports(int from, int to, Excess& excess) const;
 
   int row_count() const { return stops_ * ports_ + 1; }
-  // Index of the start as a row, and of the end as a column of costs_ (not of legs_).
+  // Index of the start as a row of costs_ and legs_, and of the end as a column of costs_.
   int start_or_end() const { return stops_ * ports_; }
   std::int64_t shifted(int from, int to) const;
   std::int64_t leg(int from, int to) const { return legs_[from * (stops_ + 1) + to]; }
@@ -69,13 +70,13 @@ class OneTreeRelaxation {
 
   int stops_;
   int ports_;
-  std::vector<std::int64_t> costs_;  // in fixed point, laid out as the matrix
-  std::vector<std::int64_t> shift_;  // by row of the matrix
-  std::vector<std::int64_t> legs_;   // from a row to a stop or the end: least over its ports
-  std::vector<std::int64_t> edges_;  // from a stop or the start: least over its ports too
+  std::vector<std::int64_t> costs_;            // in fixed point, laid out as the matrix
+  std::vector<std::int64_t> shift_;            // by row of the matrix
+  std::vector<std::int64_t> legs_;             // from a row to a stop or the end: least over ports
+  std::vector<std::int64_t> edges_;            // also least over the ports of the first stop
   std::vector<std::int64_t> symmetric_costs_;  // between two stops, in the cheaper direction
   std::vector<std::int64_t> potential_;        // by stop, in fixed point
-  std::vector<std::int64_t> weight_;           // edges between stops, both potentials added
+  std::vector<std::int64_t> weight_;           // symmetric_costs_ plus the potentials of both stops
   Time root_bound_ = 0;
 };
 

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Canonical sequences: a restriction that keeps an optimum.
+// Canonical sequences: a subset of the sequences of a class that contains an optimum.
 //
-// *Problem.* If many stops lie in a row, a sequence may visit each of them on the way in or on the
-// way out, at the same cost. One of all these sequences is enough for an optimum.
+// *Problem.* If many stops are in a row, a sequence can visit each of them on the way in or on the
+// way out, at the same cost. For the optimum, one of these sequences is sufficient.
 //
 // *Definitions.* Let detour(v, u, w) = cost(v, u) + cost(u, w) - cost(v, w), where v is a stop or
 // the start, and w a stop or the end. Let least(u) be the least detour of u over all such v and w.
 // Stop u *is passed* on the leg from v to a stop w if detour(v, u, w) = least(u) and (cost(v, u),
-// u) < (cost(v, w), w), in lexicographic order. A sequence of a class is *canonical* if none of its
-// legs after the first free stop passes a stop that comes later.
+// u) < (cost(v, w), w), in lexicographic order. A sequence of a class is *canonical* if no leg
+// after its first free stop passes a stop that comes later in the sequence.
 //
 // *Claim: each class with a sequence of finite cost has a cheapest member that is canonical.*
-// Proof: take a cheapest member, and the first leg (v, w) that passes a later stop u. Move u
+// *Proof.* Take a cheapest member, and the first leg (v, w) that passes a later stop u. Move u
 // between v and w. This removes a detour of least(u) or more, and adds a detour of least(u), so the
-// sequence costs no more. The prefix and the first free stop remain, so the sequence is of the
-// class. The successor of v is now smaller in the order above, and the legs before v have not
-// changed. That order is finite, so after finitely many moves the leg from v passes no later stop,
-// and no later move changes this leg. Then the same argument applies to the next leg, and so on.
-// (If a leg from x to y does not exist, but one from x over u to y does, the detour is far below
-// zero. Then so is least(u), and no leg of a sequence of finite cost has that detour.)
+// sequence costs no more. The prefix and the first free stop do not change, so the sequence is in
+// the class. The successor of v is now smaller in the order above, and the legs before v are
+// unchanged. Since the number of stops is finite, after finitely many moves the leg from v passes
+// no later stop, and later moves do not change this leg. The same argument then applies to the next
+// leg, and so on. (If no leg from x to y exists, but legs from x to u and from u to y do, the
+// detour is far below zero, and so is least(u). Then no leg of a sequence of finite cost passes u.)
 #include "sequencing/passed_stops.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stops that an optimal sequence need not postpone: it can visit them on a leg that passes them.
+// Stops that a leg passes: an optimal sequence need not postpone them beyond this leg.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,8 @@ class PassedStops {
  public:
   explicit PassedStops(const CostMatrix& matrix);
 
-  // Returns the stops passed on the leg from a row of the matrix to a stop.
+  // Returns the stops that are passed on the leg from a row of the matrix (a stop or the start) to
+  // a stop.
   StopSet on_leg(int from, int to) const {
     return passed_[static_cast<std::size_t>(from * stops_ + to)];
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Best member of a sequence class, given exact costs to go. A class is a state to continue from.
-// Shared by the dynamic programs.
+// Best member of a sequence class, given exact costs to go. The dynamic programs share this code,
+// in which the prefix of a class leads to a state from which the sequence continues. For matrices
+// with one port per stop.
 #pragma once
 
 #include "model/assert.h"
@@ -13,7 +14,7 @@ namespace grove::detail {
 // State at the end of the prefix of a class.
 struct ClassRoot {
   Time cost = 0;     // of the prefix; kNever if a leg of it has no path
-  int last = 0;      // row of the cost matrix: the prefix's last stop, or the start
+  int last = 0;      // row of the cost matrix: last stop of the prefix, or the start
   StopSet left = 0;  // stops not in the prefix
   StopSet next = 0;  // stops of `left` that may come next
 };
@@ -43,8 +44,8 @@ Time best_cost(const CostMatrix& matrix, const ClassRoot& root, const Completion
   return add_costs(root.cost, best);
 }
 
-// Returns a member of that cost: of several, the first in lexicographic order. The class must not
-// be empty.
+// Returns a member of that cost; of several, the first one in lexicographic order. The class must
+// not be empty.
 template <class Completion>
 Sequence best_member(const CostMatrix& matrix, const SequenceClass& sequence_class,
                      const Completion& cost_to_go) {

@@ -2,62 +2,65 @@
 // Bounded dynamic programming: the forward Held-Karp recursion, restricted to states within a cost
 // limit.
 //
-// *Definitions.* A state (S, v) means: the agent is at stop v, and the set S of stops is left. g is
-// the least cost of reaching it through kept states. b is a proven lower bound on completing the
-// sequence from it (one_tree_relaxation.cpp; most of b depends only on S, so that part is computed
-// once per set). A state is kept iff g + b <= cost_limit. All predecessors of the states with set S
-// have the set S + v left for some v, so one pass over the layers of equal |S| makes every g final.
-// A weaker b is available at no extra cost from the tree of S + v. About 95 % of the dropped states
-// are dropped by it, and no tree is built for their sets.
+// *Definitions.* In a state (S, v) the agent is on stop v, and the set S of stops is left. g is the
+// least cost of reaching the state through kept states. b is a proven lower bound on the cost of
+// completing the sequence from the state (one_tree_relaxation.cpp; most of b depends only on S, so
+// that part is computed once per set). A state is kept iff g + b <= cost_limit. The predecessors of
+// a state (S, v) have the set S + v left, so one pass over the layers of equal |S| makes every g
+// final. The tree for S + v gives a weaker b at no extra cost. It drops about 95 % of the dropped
+// states, and no tree is built for their sets.
 //
-// *Invariant: every state of a sequence that costs <= cost_limit is kept.* Proof, by induction
+// *Invariant: every state of a sequence that costs <= cost_limit is kept.* *Proof* by induction
 // along the sequence: the predecessor of the state is kept, so g is at most the cost of the
-// sequence up to the state. b is at most the cost of its remainder. So g + b <= cost_limit.
+// sequence up to the state. b is at most the cost of the remainder. Hence g + b <= cost_limit.
 //
-// *Consequence.* A sequence with a dropped state has, at the first such state, g + b no greater
-// than its own cost. So outside_bound(), the least g + b of any dropped state, is a lower bound on
-// all sequences outside the graph, and no cost limit below it adds any sequence.
+// *Consequence.* At the first dropped state of a sequence, g + b is at most the cost of the
+// sequence. So outside_bound(), the least g + b of all dropped states, is a lower bound on the cost
+// of all sequences outside the graph, and a build with a reach below outside_bound() adds no
+// sequence.
 //
 // *Ports.* If stops have several ports (cost_matrix.h), a state has one g per port. The statements
-// above then hold per port: each port is kept or dropped by its own g + b.
+// above then hold for each port: it is kept or dropped by its own g + b.
 //
-// *Backward pass.* It computes the exact cost to go within the graph. For a sequence below
-// outside_bound() this is its exact cost to go.
+// *Backward pass.* It computes the exact cost to go within the graph, which is also the exact cost
+// to go over all sequences that cost less than outside_bound().
 //
-// *Parity.* On a grid all paths between two cells have the same parity, hence so have all complete
-// sequences, also if tasks take time. If the matrix has this property (verified, not assumed), g +
-// b is rounded up to that parity.
+// *Parity.* On a grid all paths between two cells have the same parity, and so have all complete
+// sequences, even if tasks take time. If the matrix has this property (the code verifies it), g + b
+// is rounded up to that parity.
 //
-// *Direct legs.* Problem: in an aisle a sequence may skip any stops on the way in and visit them on
-// the way out, at the same cost, so 2^n states lie on optimal sequences. But an agent that passes a
-// plain stop visits it. So with direct legs (direct_legs.h) the graph holds what agents can do
-// instead of all sequences. Definitions: a path of a class *counts* a stop when it is first on the
-// place of the stop (or has completed its work there), once the prefix and the first free stop are
-// counted. So the path realizes a sequence of the class (planning/sequence_stages.cpp). c(S, v, w)
-// is the least sum of direct legs from v over stops outside S to w. *Claim: a path from v to w that
-// counts no stop of S in between costs at least c(S, v, w).* Proof: the places of plain stops on
-// the path are all outside S. In their order they cut the path into segments that pass no other
-// plain stop, and each segment costs at least its direct leg. Consequence: with c(S, v, w) as the
-// cost from v to w, g of a state is at most what a path to this state pays. So the invariant holds
-// for paths: every state of a path that costs <= cost_limit is kept, and outside_bound() is a lower
-// bound on all paths with a state outside. b remains a lower bound, because no direct leg costs
-// less than the leg of the matrix. Legs of the prefix, and the leg to the first free stop, may pass
-// any stop: they cost what the matrix has. The graph is then valid only for this class: another
-// prefix reaches states that no path of this class can reach.
+// *Direct legs.* Problem: in an aisle a sequence can skip any stops on the way in and visit them on
+// the way out, at the same cost, so 2^n states are on optimal sequences. However, an agent that
+// passes a plain stop visits it. So with direct legs (direct_legs.h) the graph holds the routes of
+// such agents instead of all sequences. Definitions: after a path of a class has counted the prefix
+// and the first free stop, it *counts* each other stop when it is first on the place of the stop
+// (or first completes the task execution there). In this way the path realizes a sequence of the
+// class (planning/sequence_stages.cpp). c(S, v, w) is the least sum of direct legs from v over
+// stops outside S to w. *Claim: a path from v to w that counts no stop of S in between costs at
+// least c(S, v, w).* *Proof.* All plain stops on the path between v and w are outside S. They cut
+// the path into segments that pass no other plain stop, and each segment costs at least its direct
+// leg. *Consequence.* With c(S, v, w) as the cost from v to w, g of a state is at most the cost of
+// any path to this state. So the invariant holds for paths: every state of a path that costs <=
+// reach is kept, and outside_bound() is a lower bound on the cost of all paths with a state outside
+// the graph. b remains a lower bound, because a direct leg costs no less than the leg of the
+// matrix. Legs of the prefix, and the leg to the first free stop, can pass any stop, so they have
+// the costs of the matrix. The graph is valid only for this class, because a different prefix
+// reaches states that no path of this class can reach.
 //
-// *Passed stops.* If only sequences matter, and only a cheapest member of one class, the graph
-// holds the canonical sequences of the class (passed_stops.cpp). The invariant and outside_bound()
-// then refer to canonical sequences, and one of them is a cheapest member.
+// *Passed stops.* If the caller needs only a cheapest member of one class, the graph holds the
+// canonical sequences of the class (passed_stops.cpp). The invariant and outside_bound() then refer
+// to canonical sequences, of which one is a cheapest member.
 //
-// *Pairs.* For stops in a row the relaxation is weak for states that leave gaps. So with direct
-// legs b is at least the cost of visiting any two stops left, in the better order, and then going
-// to the end. Each part of that sum is the least cost of a real part of the path: from the state's
-// stop to one of the two, from that to the other, or to the end. (So the last part must be valid
-// for any path. Late costs have a leg to the end that is valid only for the last stop of a
-// sequence; late_costs.cpp puts the other one into its direct legs.)
+// *Pairs.* For stops in a row the relaxation is weak at states that leave gaps. So with direct legs
+// b is at least the cost of visiting any two of the stops left, in the better order, and then going
+// to the end. Each term of this sum is the least cost of a real part of the path: from the stop of
+// the state to one of the two, from this one to the other, or from there to the end. (Therefore the
+// last term must be valid even if other stops follow. A late cost to the end is valid only for the
+// last leg of a sequence, so late_costs.cpp puts the plain cost into its direct legs.)
 //
-// *Hops.* A hop from v over a stop u is useless if every stop is at least as near directly as by u
-// (DirectLegs::hops): the direct leg that replaces it passes no stop at all.
+// *Hops.* A hop from v over a stop u is useless if the direct leg from v to every other stop costs
+// no more than the route over u (DirectLegs::hops): the direct leg can then replace the hop,
+// because it passes no other plain stop.
 #include "sequencing/sequence_dag.h"
 
 #include <array>
@@ -73,8 +76,9 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kPollInterval = 32;     // sets; each takes a few microseconds
-constexpr std::size_t kCountedExcess = 4096;  // costs this far above `cost_limit` are not counted
+constexpr std::size_t kPollInterval = 32;  // nodes; each takes a few microseconds
+constexpr std::size_t kCountedExcess =
+    4096;  // drop() counts only costs less than this above `cost_limit`
 
 }  // namespace
 
@@ -124,7 +128,7 @@ class SequenceDagBuilder {
  private:
   using PortCosts = std::array<Time, kPorts>;
 
-  // A set of the layer under construction, and below a state of that layer.
+  // A set of stops left in the layer under construction. State is a state of that layer.
   struct Group {
     SequenceDag::Node node;
     OneTreeRelaxation::Tail tail;
@@ -135,7 +139,8 @@ class SequenceDagBuilder {
     Stop stop;
   };
 
-  // Adds the states of the first free stop after the prefix. Returns the number of free stops.
+  // Adds the states in which the first free stop after the prefix has just been visited. Returns
+  // the number of free stops.
   int reach_first_states() {
     constexpr int kStart = -1;
     int last = kStart;
@@ -170,8 +175,8 @@ class SequenceDagBuilder {
 
   static Time least(const PortCosts& costs) { return *std::ranges::min_element(costs); }
 
-  // Keeps the state (left, stop), reached at `costs`, if it lies on a route within `cost_limit_`.
-  // Of its ports it keeps those that do.
+  // Adds the state (left, stop), reached at `costs` by port. Drops the ports with g + b > reach_,
+  // and the state if no port remains.
   void reach_state(StopSet left, int stop, PortCosts costs) {
     if (least(costs) >= kNever) return;
     const std::uint32_t number =
@@ -205,7 +210,8 @@ class SequenceDagBuilder {
       cost = kNever;
     }
   }
-  // Returns the maximum over pairs of stops left of the cheaper of the two orders.
+  // Returns the bound of the paragraph "Pairs": the maximum, over pairs of stops left, of the cost
+  // of the cheaper order.
   Time bound_of_pairs(StopSet left, int from) const {
     Time bound = 0;
     for_each_stop(left, [&](int one) {
@@ -222,8 +228,8 @@ class SequenceDagBuilder {
     });
     return bound;
   }
-  // The least legs over the ports. The last column, to the end, is that of the direct legs, which
-  // holds for any path.
+  // The least legs over the ports. The column to the end is that of the direct legs, which is valid
+  // for any path.
   static CostMatrix pair_costs(const CostMatrix& matrix, const DirectLegs* direct) {
     if (direct == nullptr) return {};
     CostMatrix any = matrix;
@@ -240,8 +246,8 @@ class SequenceDagBuilder {
     ++dropped_[excess];
   }
 
-  // The cost limit up to which half as many dropped costs were counted as are stored. States that
-  // follow on these are then admitted too.
+  // The least cost limit up to which the number of dropped costs is at least half the number of
+  // stored costs. The successors of the newly admitted states add about as many again.
   Time next_cost_limit() const {
     std::size_t count = 0;
     for (std::size_t excess = 0; excess < dropped_.size(); ++excess)
@@ -256,8 +262,8 @@ class SequenceDagBuilder {
 
   Time* costs_of(std::uint32_t state) { return &dag_.cost_to_go_[state * std::size_t{kPorts}]; }
 
-  // Moves the groups that hold a state into the graph. Until the backward pass, cost_to_go_ holds
-  // the costs of reaching the states.
+  // Moves the groups that contain a state into the graph. Until the backward pass, cost_to_go_
+  // holds the costs g of the states.
   void close_layer() {
     tails_.clear();
     auto first = static_cast<std::uint32_t>(dag_.state_count());
@@ -289,7 +295,7 @@ class SequenceDagBuilder {
       for_each_stop(node.left, [&](int next) {
         const PortCosts costs =
             direct_ != nullptr ? costs_of_walking_to(next) : costs_of_reaching(next, node);
-        // Few states pass this test. It avoids computing a tail for the others.
+        // The weaker b: few states pass this test, and no tail is computed for the others.
         Time whole = kNever;
         for (int port = 0; port < kPorts; ++port)
           whole = std::min(
@@ -307,8 +313,8 @@ class SequenceDagBuilder {
 
   StopSet visited(const SequenceDag::Node& node) const { return matrix_.all() & ~node.left; }
 
-  // Computes the least cost of reaching each port of a visited stop, by direct legs from the stops
-  // of the node's states.
+  // Computes the least cost of reaching each port of a visited stop by direct legs from the states
+  // of the node, without visiting a stop that is left.
   void walk(const SequenceDag::Node& node) {
     leg_costs_.fill(kNever);
     reached_ports_.clear();
@@ -354,7 +360,8 @@ class SequenceDagBuilder {
     return costs;
   }
 
-  // Any vector may double when it grows next, so this requests as much memory again beforehand.
+  // Tests the limits. Any vector can double its capacity when it grows, so the test requests the
+  // current memory a second time.
   bool may_continue() {
     const std::size_t bytes = dag_.nodes_.capacity() * sizeof(SequenceDag::Node) +
                               dag_.cost_to_go_.capacity() * sizeof(Time) + dag_.index_.bytes() +
@@ -378,7 +385,8 @@ class SequenceDagBuilder {
     return true;
   }
 
-  // Computes the cost to go from each port of a visited stop by direct legs, to a fixed point.
+  // Computes the cost to go from each port of a visited stop by direct legs, by iteration to a
+  // fixed point.
   void compute_walks(const SequenceDag::Node& node) {
     leg_costs_.fill(kNever);
     std::array<Time, kMaxTasksPerAgent * kPorts> onward;
@@ -416,8 +424,8 @@ class SequenceDagBuilder {
     });
   }
 
-  // Dropped ports also get the cost of their routes inside the graph, because these routes are
-  // real.
+  // Computes the costs to go of the states of a node. A dropped port also gets the cost of its
+  // routes inside the graph, because these routes exist.
   void compute_cost_to_go_of(const SequenceDag::Node& node) {
     Time onward[kMaxTasksPerAgent * kPorts];
     for_each_stop(node.left, [&](int next) {
@@ -452,13 +460,13 @@ class SequenceDagBuilder {
 
   SequenceDag dag_{kNever};
   std::vector<Group> groups_;
-  std::vector<OneTreeRelaxation::Tail> tails_;  // of the nodes of the last layer
+  std::vector<OneTreeRelaxation::Tail> tails_;  // by node of the last layer
   std::vector<State> states_;
-  std::vector<std::size_t> dropped_;  // counts, by excess over `cost_limit_`, less 1
+  std::vector<std::size_t> dropped_;  // number of dropped costs, by excess over reach_ minus 1
   StopSetIndex group_index_;
   std::size_t asked_bytes_ = 0;
-  // Of the node in progress, by port of a visited stop; and the ports with a cost, some of them
-  // twice.
+  // For the node in progress: cost by port of a visited stop (walk() and compute_walks()), and the
+  // ports with a cost, possibly with duplicates.
   std::array<Time, kMaxTasksPerAgent * kPorts> leg_costs_;
   std::vector<int> reached_ports_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hash map from sets of stops to numbers, for graphs of sequences.
+// Hash map from sets of stops to numbers, for sequence graphs.
 #pragma once
 
 #include <bit>
@@ -11,7 +11,7 @@
 
 namespace grove::detail {
 
-// Open addressing, linear probing. One thread at a time.
+// Uses open addressing with linear probing. One thread at a time.
 class StopSetIndex {
  public:
   static constexpr std::uint32_t kAbsent = UINT32_MAX;
@@ -19,7 +19,7 @@ class StopSetIndex {
   StopSetIndex() : slots_(16) {}
   std::uint32_t find(StopSet set) const { return slots_[slot_of(set)].number; }
   std::size_t bytes() const { return slots_.size() * sizeof(Slot); }
-  // Returns the number of `set`. If it has none, assigns `number` to it first.
+  // Returns the number of `set`. If the set has no number, assigns `number` to it first.
   std::uint32_t insert(StopSet set, std::uint32_t number);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The public C++ API as its users see it: the only header included is <grove/grove.hpp>.
+// Tests the public C++ API as users see it: the only Grove header included is <grove/grove.hpp>.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ Instance small() {
                    {.id = "look", .place = Cell{2, 0}, .agents = {"red"}}});
 }
 
-// Robots that must pass each other in a corridor: the search takes hours.
+// Robots that must pass each other in a corridor, an instance that takes the search hours.
 Instance dense_instance(int robots = 14) {
   std::vector<Agent> agents;
   for (int i = 0; i < robots; ++i)
@@ -203,7 +203,7 @@ TEST(Api, WritePlanRefusesInvalidPlans) {
   EXPECT_FALSE(std::filesystem::exists(directory / "p.json"));
 }
 
-// A lower bound on plans without following does not hold for plans with following.
+// A bound proven for plans without following does not hold for plans with following.
 TEST(Api, ClaimsWithoutFollowingKeepThatRule) {
   const Instance instance = small();
   const Instance strict(instance.world(), instance.agents(), instance.tasks(),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The low levels of published methods: in cases that are easily wrong; compared with the definition
-// on tiny problems (GROVE_FUZZ_FACTOR multiplies their number); and compared with Grove's own on
-// larger problems.
+// Tests the low levels of published methods in three ways: on known pitfalls, against the
+// definition on tiny problems (GROVE_FUZZ_FACTOR multiplies their number), and against Grove's own
+// low level on larger problems.
 #include "baselines/low_level.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ using Outcome = PathOutcome;
 
 class Baselines : public ::testing::TestWithParam<LowLevel> {
  protected:
-  // Cost of the path, or kNever if it is proven that there is none.
+  // Returns the cost of the path, or kNever if no path exists (proven).
   Time cost(const Instance& instance, const std::vector<Constraint>& constraints,
             const Limits& limits = Limits()) {
     const DistanceFields distances(instance);
@@ -42,18 +42,18 @@ class Baselines : public ::testing::TestWithParam<LowLevel> {
   Path path_;
 };
 
-// An agent on the first task at time 2 cannot leave it in time: the earliest arrival leads to no
-// path.
+// If the agent is on its first task at time 2, it cannot leave that task in time, so the earliest
+// arrival leads to no path.
 TEST_P(Baselines, ArriveLateIfEarlyArrivalLeadsNowhere) {
   const Instance instance = instance_of({"....."}, {{{0, 0}, std::nullopt, {{2, 0}, {4, 0}}}});
   EXPECT_EQ(cost(instance, {{1, kNoCell, 3, 4}, {2, kNoCell, 3, 4}, {3, kNoCell, 3, 9}}), 11);
 }
 
-// The nearer end is blocked later.
+// The end that is nearer to the start is blocked later.
 TEST_P(Baselines, DoNotRestOnACellThatIsBlockedLater) {
   const Instance instance = instance_of({"......"}, {{{1, 0}, std::nullopt, {{0, 0}, {5, 0}}}});
   EXPECT_EQ(cost(instance, {}), 6);
-  EXPECT_EQ(cost(instance, {{5, kNoCell, 9, 9}}), 9);  // in the reverse order
+  EXPECT_EQ(cost(instance, {{5, kNoCell, 9, 9}}), 9);  // visits its tasks in the reverse order
   EXPECT_EQ(cost(instance, {{5, kNoCell, 9, 9}, {0, kNoCell, 20, 20}}), 10);
   EXPECT_EQ(cost(instance, {{5, kNoCell, 9, kNever}, {0, kNoCell, 20, kNever}}), kNever);
 }
@@ -95,7 +95,7 @@ TEST_P(Baselines, ReportStoppedAtALimit) {
   EXPECT_EQ(search->find(goals, {}, limits, path_), Outcome::kStopped);
 }
 
-// A limit that is reached during the search proves nothing.
+// If a limit is reached during the search, the result proves nothing.
 TEST_P(Baselines, ReportStoppedAtALimitDuringTheSearch) {
   const Instance instance =
       instance_of(std::vector<std::string>(16, std::string(16, '.')),
@@ -118,14 +118,14 @@ TEST_P(Baselines, ReportStoppedAtALimitDuringTheSearch) {
   }
 }
 
-// After the last constraint all times are equivalent: the least of them counts.
+// After the last constraint all arrival times are equivalent, so the earliest one counts.
 TEST_P(Baselines, KeepTheEarliestOfEquivalentTimes) {
   const Instance instance = instance_of({".....", ".....", "....."},
                                         {{{3, 2}, Position{3, 1}, {{0, 1}, {3, 1}, {0, 0}}}});
   EXPECT_EQ(cost(instance, {{0, kNoCell, 5, 8}, {8, 7, 9, kNever}, {5, 10, 7, kNever}}), 13);
 }
 
-// Tiny maps; each problem is made harder one constraint at a time.
+// Tiny maps, with constraints added one at a time.
 TEST_P(Baselines, AgreeWithTheDefinition) {
   int infeasible = 0;
   const int seeds = testing::fuzz_rounds(400);
@@ -160,7 +160,7 @@ TEST_P(Baselines, AgreeWithTheDefinition) {
   EXPECT_GT(infeasible, seeds / 8);
 }
 
-// Many goals on a larger map; each further constraint blocks the path just found.
+// Many goals on a larger map; each added constraint blocks the path found before.
 TEST_P(Baselines, AgreeWithGrovesLowLevel) {
   std::mt19937 random(7);
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };

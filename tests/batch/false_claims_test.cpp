@@ -24,7 +24,7 @@ Row row_of_other(const std::string& method) {
   return row;
 }
 
-// Its paths cost 105. It claims this cost and a lower bound of 100.
+// A row whose paths cost 105 and which claims this cost and a lower bound of 100.
 Row honest_row() {
   Row row = row_of_other("honest");
   row.outcome.cost = row.outcome.claimed_cost = 105;
@@ -70,7 +70,7 @@ TEST(FalseClaims, IncludeBoundsAboveTheCostOfAPlan) {
                                       "costs 105"}}));
 }
 
-// Grove's own bounds are checked, too.
+// Grove's own bounds are checked as well.
 TEST(FalseClaims, IncludeGrovesOwnBounds) {
   EXPECT_EQ(false_claims(std::vector<Row>{row_of_grove(110, 110), honest_row()}),
             (std::vector<FalseClaim>{{"grove", "i",
@@ -102,7 +102,7 @@ TEST(FalseClaims, CompareRowsOfOneInstanceOnly) {
   EXPECT_TRUE(false_claims(std::vector<Row>{row_of_grove(110, 110), other}).empty());
 }
 
-// Another solver's bound is only a claim; it refutes no other claim.
+// A bound from another solver is only a claim, so it refutes no other claim.
 TEST(FalseClaims, AreNotDerivedFromUncheckedClaims) {
   Row bounder = row_of_other("bounder");
   bounder.outcome.claimed_lower_bound = 90;

@@ -28,7 +28,7 @@ TEST(InstanceMetadata, AreReadFromTheInstanceAndItsName) {
             (InstanceMetadata{"room-32", std::nullopt, 1, 0, "mapf"}));
 }
 
-// The former destination is one more task of an MG-MAPF instance.
+// In an MG-MAPF instance the former destination counts as one more task.
 TEST(InstanceMetadata, TakeTheNumberOfTasksFromTheName) {
   const AgentSpec free{{1, 0}, std::nullopt, {{2, 0}, {3, 1}}};
   EXPECT_EQ(facts("room_s1_n1_m1_mg", {free}).tasks, 1);

@@ -81,7 +81,7 @@ TEST_F(Manifests, GiveIdsIndependentOfTheWorkingDirectory) {
   fs::current_path(before);
 }
 
-// An id contains no path of the machine.
+// An id contains no absolute path.
 TEST_F(Manifests, NameExternalFilesByTheirFolder) {
   add_file("far/away/set/b.cts.json");
   add_file("far/away/x.scen");
@@ -152,7 +152,7 @@ TEST_F(Manifests, RefuseOtherFilesAndFolders) {
       std::string::npos);
 }
 
-// A digest changes exactly when the contents of the instance or of its map change.
+// A digest changes if and only if the contents of the instance or of its map change.
 TEST_F(Manifests, GiveADigestThatChangesWithTheInstance) {
   const std::string map = "type octile\nheight 1\nwidth 3\nmap\n...\n";
   const auto instance = [](const std::string& file, const std::string& id, int goal) {
@@ -165,7 +165,7 @@ TEST_F(Manifests, GiveADigestThatChangesWithTheInstance) {
   add_file("x.scen", rows);
   const std::string list = "a.cts.json\nx.scen --map m.map --agents 1\n";
   const auto before = read(list);
-  EXPECT_NE(before[0].digest, before[1].digest);  // another id
+  EXPECT_NE(before[0].digest, before[1].digest);  // they differ in the agent's id
   const auto digests_after = [&](const std::string& name, const std::string& content) {
     add_file(name, content);
     const auto after = read(list);
@@ -174,7 +174,7 @@ TEST_F(Manifests, GiveADigestThatChangesWithTheInstance) {
   const std::pair same(before[0].digest, before[1].digest);
   EXPECT_EQ(digests_after("a.cts.json", "\n" + instance("./m.map", "a", 2)), same);
   EXPECT_EQ(digests_after("m.map", "type octile\nheight 1\nwidth 3\nmap\n.G.\n"), same);
-  EXPECT_EQ(digests_after("x.scen", rows + rows.substr(rows.find('0'))), same);  // a further row
+  EXPECT_EQ(digests_after("x.scen", rows + rows.substr(rows.find('0'))), same);  // one more row
   const auto other_map = digests_after("m.map", "type octile\nheight 2\nwidth 3\nmap\n...\n...\n");
   EXPECT_NE(other_map.first, same.first);
   EXPECT_NE(other_map.second, same.second);

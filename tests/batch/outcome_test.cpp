@@ -92,7 +92,7 @@ TEST_F(Outcomes, RefuseWrongPlans) {
   solution_.plan->cost = 4;
   EXPECT_TRUE(outcome().failed());
   solution_.plan->cost = 3;
-  solution_.lower_bound = 2;  // then not optimal
+  solution_.lower_bound = 2;  // contradicts the status `optimal`
   EXPECT_TRUE(outcome().failed());
 }
 

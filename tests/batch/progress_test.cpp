@@ -12,7 +12,7 @@ TEST(Estimates, ExtrapolateTheCurrentPace) {
   const Workload work{.done = 41, .left = 94, .workers = 2, .done_s = 235, .under_way_s = 11};
   EXPECT_DOUBLE_EQ(*seconds_each(work), 6);
   EXPECT_DOUBLE_EQ(*seconds_left(work), 282);
-  Workload last = work;  // more workers than work: one round
+  Workload last = work;  // more workers than runs left: one round
   last.workers = 1000;
   EXPECT_DOUBLE_EQ(*seconds_left(last), 6);
 }

@@ -32,14 +32,14 @@ class Tables : public ::testing::Test {
   std::vector<batch::Run> runs() const { return runs_of(rows_); }
   std::string file() const { return folder_ + "/results.jsonl"; }
   std::string lines() const { return file_content(file()); }
-  // Contents of the file after these rows have been appended.
+  // Returns the expected file contents after the rows at `positions` were appended.
   std::string lines_of(const Positions& positions) const {
     std::string text;
     for (const std::size_t i : positions) text += json_line(rows_[i]) + "\n";
     return text;
   }
   ResultTable open() const { return ResultTable(folder_, what_); }
-  // An earlier command that completed the runs at `done` and was then killed.
+  // Simulates an earlier command that completed the runs at `done` and was then killed.
   void run(const Positions& done) {
     ResultTable table = open();
     table.begin(runs());
@@ -49,7 +49,7 @@ class Tables : public ::testing::Test {
   std::string refused() const {
     return refusal([&] { left(); });
   }
-  // Message of the refusal when the run of row 1 is changed.
+  // Returns the message of the refusal after `change` has been applied to the run of row 1.
   std::string refused_after(const std::function<void(batch::Run&)>& change) {
     const batch::Run before = rows_[1].run;
     change(rows_[1].run);
@@ -60,7 +60,7 @@ class Tables : public ::testing::Test {
 
   TemporaryDirectory directory_;
   const std::string folder_ = directory_ / "out/deep";
-  // The runs of a command on two instances by two methods, and their rows.
+  // The rows for a command that solves two instances by two methods.
   std::vector<Row> rows_{solved_row("i", "a"), solved_row("i", "b"), solved_row("j", "a"),
                          solved_row("j", "b")};
   TableOf what_ = TableOf::kMethods;
@@ -86,7 +86,7 @@ TEST_F(Tables, ResumeWhereTheyStopped) {
   EXPECT_EQ(table.find(solved_row("k", "a").run), nullptr);
 }
 
-// The last write may be cut off at any byte.
+// The last write can be cut off at any byte.
 TEST_F(Tables, RemoveATruncatedLastLine) {
   run({0, 1});
   const std::string line = lines_of({1});
@@ -104,7 +104,7 @@ TEST_F(Tables, RepeatFailedRuns) {
   const Row good = rows_[1];
   rows_[1] = failed_row("i", "b");
   run({0, 1});
-  rows_[1] = good;  // a failed run is repeated with other limits, too
+  rows_[1] = good;  // the failed run is repeated even with different limits
   EXPECT_EQ(left(), (Positions{1, 2, 3}));
   EXPECT_EQ(lines(), lines_of({0}));
 }
@@ -145,7 +145,7 @@ TEST_F(Tables, HoldARowForEachSeed) {
   EXPECT_EQ(open().rows().size(), 5U);
 }
 
-// A table of plans repeats the run if the instance has changed.
+// A table of plans repeats a run if its instance has changed.
 TEST_F(Tables, OfPlansRepeatRunsOfChangedInstances) {
   what_ = TableOf::kPlans;
   rows_ = {solved_row("i"), solved_row("j"), solved_row("k")};
@@ -155,8 +155,8 @@ TEST_F(Tables, OfPlansRepeatRunsOfChangedInstances) {
   EXPECT_EQ(lines(), lines_of({0}));
 }
 
-// All rows of a table of plans must have the same settings, also rows of instances that the command
-// does not name.
+// All rows of a table of plans must have the same settings, including rows of instances that are
+// not in the command.
 TEST_F(Tables, OfPlansRefuseOtherSettings) {
   what_ = TableOf::kPlans;
   rows_ = {solved_row("i"), solved_row("j")};
@@ -193,7 +193,7 @@ TEST_F(Tables, RefuseInvalidLines) {
       << refused();
 }
 
-// As after merging two files by hand.
+// Two rows for one run can result from merging two files by hand.
 TEST_F(Tables, KeepTheLastRowOfAPair) {
   run({0, 1});
   rows_[0].wall_s = 99;
@@ -235,7 +235,7 @@ TEST_F(Tables, AreWrittenAsCsvInTheOrderOfTheCommand) {
             csv_header() + csv_line(rows_[0]) + csv_line(rows_[1]) + csv_line(other));
 }
 
-// A run during which the program died is repeated only after all other runs.
+// A run during which the program was killed is repeated after all other runs.
 TEST_F(Tables, PutRunsThatNeverEndedLast) {
   rows_ = {solved_row("a"), solved_row("b"), solved_row("c"), solved_row("d")};
   {

@@ -27,7 +27,7 @@ Row limited_row() {
   return row;
 }
 
-// Row of an instance that cannot be read.
+// A row for an instance that cannot be read.
 Row unreadable_row() {
   Row row = failed_row();
   row.facts = {};
@@ -110,7 +110,7 @@ TEST(Rows, HoldTheResultOfTheCertificate) {
   EXPECT_EQ(parse_json_line(json_line(row)).outcome.certified, false);
 }
 
-// Claims of another solver round-trip in both formats.
+// Claims of other solvers survive a round trip in both formats.
 TEST(Rows, HoldClaimsOfOtherSolvers) {
   Row row = solved_row();
   row.solver = "lacam3";
@@ -138,7 +138,7 @@ constexpr std::array<std::string_view, 10> kLater{
     "counts", "solver",    "claimed_cost", "claimed_lower_bound", "claimed_s", "anytime",
     "trace",  "certified", "verify_s",     "proof_bytes"};
 
-// Older tables without these columns can be resumed.
+// Tables from older versions, which lack some columns, can be resumed.
 TEST(Rows, AreReadWithoutLaterColumns) {
   json line = json::parse(json_line(solved_row()));
   for (const std::string_view column : kLater) line.erase(std::string(column));
@@ -176,7 +176,7 @@ TEST(Rows, RefuseInvalidLines) {
   const json good = json::parse(json_line(solved_row()));
   std::vector<std::string> bad{"", "{", "[]", "3", "null", "{}"};
   for (const auto& [key, value] : good.items()) {
-    if (key == "gap" || key == "sqr" || key == "runtime_s") continue;  // derived columns, not read
+    if (key == "gap" || key == "sqr" || key == "runtime_s") continue;  // derived, not read
     json without = good;
     without.erase(key);
     if (std::ranges::find(kLater, key) == kLater.end()) bad.push_back(without.dump());
@@ -187,9 +187,9 @@ TEST(Rows, RefuseInvalidLines) {
   json odd = good;
   odd["status"] = "fine";
   bad.push_back(odd.dump());
-  odd["status"] = "error";  // but without an error text
+  odd["status"] = "error";  // without an error text
   bad.push_back(odd.dump());
-  odd["error"] = "broken";  // but `solved`
+  odd["error"] = "broken";  // with an error text, although solved
   bad.push_back(odd.dump());
   for (const std::string& line : bad)
     EXPECT_THROW(parse_json_line(line), std::invalid_argument) << line;

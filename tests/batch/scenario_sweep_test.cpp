@@ -19,7 +19,7 @@ class Sweeps : public ::testing::Test {
   void add_map(const std::string& name, const std::string& row = "....") {
     add(name, "type octile\nheight 4\nwidth 4\nmap\n" + row + "\n....\n....\n....\n");
   }
-  // Its agents move from left to right, one in each row.
+  // Adds a scenario whose agents move from left to right, one in each row.
   void add_scenario(const std::string& name, int rows, const std::string& map = "m.map") {
     std::string text = "version 1\n";
     for (int y = 0; y < rows; ++y)
@@ -62,8 +62,8 @@ TEST_F(Sweeps, TakeEachScenarioWithEachNumberOfAgents) {
   EXPECT_NE(swept.entries[0].digest, swept.entries[1].digest);
 }
 
-// The layout of the unpacked archives: maps in one folder, scenarios in another, with a path in
-// their rows.
+// The layout of the unpacked archives: maps in one folder and scenarios in another, whose rows name
+// the maps with a path.
 TEST_F(Sweeps, FindMapsInFoldersBelow) {
   add_map("maps/m.map");
   add_scenario("scen-random/m-random-1.scen", 2, "maps/m.map");

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests the scripts of the experiments on small maps.
+"""Tests the experiment scripts on small maps.
 
-    experiments_test.py GROVE    GROVE: the program; without it, tests that run it are skipped
+    experiments_test.py [GROVE]    GROVE: the program; without it, tests that run it are skipped
 """
 import csv
 import json
@@ -22,7 +22,7 @@ from harness.instances import Case, Maps, scenario_with_enough_rows  # noqa: E40
 
 GROVE = pathlib.Path("build/release/bin/grove")
 DATA = BENCHMARKS / "data"
-MAP = "empty-32-32"  # name of the map in the folders of the tests; empty-32x32 in the data folder
+MAP = "empty-32-32"  # map name in the test folders; the data folder calls it empty-32x32
 
 
 def row(**values):
@@ -32,7 +32,7 @@ def row(**values):
 
 
 class Folder(unittest.TestCase):
-    """Provides a folder of maps: one map, two scenarios of 200 rows."""
+    """Provides a folder with one map and two scenarios of 200 rows each."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -195,7 +195,7 @@ class WithTheProgram(Folder):
         self.assertIn("2 plans of echo are unchecked claims", done.stderr)
 
     def test_claims_below_a_proven_bound_are_reported(self):
-        # No plan costs less than a proven lower bound.
+        # No plan costs less than a proven lower bound, so a lower claimed cost must be false.
         done, rows = self.experiment(
             "classical", "--scenarios", "1", "--time-limit", "1", "--other", "echo",
             "echo cost {agents}", r"cost (\d+)", code=1)
@@ -209,7 +209,7 @@ class WithTheProgram(Folder):
         self.assertIn("proofs contradict each other", report.stderr)
 
     def with_paths(self, change):
-        """Returns the row of a solver that writes the plan of Grove, with its paths or cost modified by `change`."""
+        """Returns the row of a solver that writes Grove's plan after `change` has modified its paths or cost."""
         case = Case(MAP, 5, None, 1)
         (self.folder / "solver.py").write_text(f"""
 import json, subprocess, sys

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests the experiments of the paper on few instances: all runs are present, proofs agree, further instances are added.
+"""Tests the experiments of the paper on a few instances: all runs are present, proofs agree, and later runs add
+instances.
 
     paper_test.py GROVE
 """
@@ -58,7 +59,7 @@ class Paper(unittest.TestCase):
     def test_missing_program_is_an_error(self):
         with tempfile.TemporaryDirectory() as name:
             self.assertIn("tools/quickstart", self.refused(name, "--grove", "/no/such/grove"))
-            self.assertFalse((Path(name) / "settings.json").exists())  # no results exist for these settings
+            self.assertFalse((Path(name) / "settings.json").exists())  # stored only for settings that have results
 
     def test_signals_reach_the_bench(self):
         with tempfile.TemporaryDirectory() as name:
@@ -80,5 +81,5 @@ class Paper(unittest.TestCase):
 
 if __name__ == "__main__":
     GROVE = Path(sys.argv.pop(1)).resolve()
-    os.environ.pop("GROVE_MOVINGAI", None)  # uses generated maps
+    os.environ.pop("GROVE_MOVINGAI", None)  # so that the test uses generated maps
     unittest.main()

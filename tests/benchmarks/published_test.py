@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests the comparison of published results with ours: the pages agree with the result files."""
+"""Tests the comparison of published results with those of Grove: the pages agree with the result files."""
 import pathlib
 import sys
 import unittest
@@ -17,9 +17,10 @@ def measured(success, runtime=10.0, sqr=None):
 
 
 def cells():
-    """Returns two cells of a room map.
+    """Returns two configurations on a room map.
 
-    In the first A is better than all baselines and B solves twice as many as the best; in the second only B solves any.
+    In the first, A is better than all baselines and B solves twice as many instances as the best baseline. In the
+    second, only B solves any instances.
     """
     baselines = {name: measured(0.4, 5.0, 1.0) for name in published.BASELINES}
     nothing = dict.fromkeys(published.BASELINES, measured(0))
@@ -61,13 +62,14 @@ class Claims(unittest.TestCase):
             "speed-up": "10 times at most (room, N = 5, M = 10: B against Optimal-CBS)",
             "quality-loss": "5.0 % at most (room, N = 5, M = 10: B)",
             "quality-a": "1.0 to 1.0 % less, in the median 1.0 %",
-            "room-success-a": "than all: 1 of the 1 cells in which A or a baseline solves any; lower than the best: 0",
-            "room-runtime-a": "than the fastest: 1 of 2 cells, 1.2 times at most",
-            "success-b": "of the best baseline's: 2.0 to 2.0 times, in the median 2.0 times; in 1 cells B alone solves any",
-            "runtime-b": "than the fastest baseline's: ten times and more in 1 of 2 cells, 10 times at most",
+            "room-success-a": "than all: 1 of the 1 configurations in which A or a baseline solves any; lower than the best: 0",
+            "room-runtime-a": "than the fastest: 1 of 2 configurations, 1.2 times at most",
+            "success-b": "of the best baseline's: 2.0 to 2.0 times, in the median 2.0 times; "
+                         "in 1 configurations B alone solves any",
+            "runtime-b": "than the fastest baseline's: ten times and more in 1 of 2 configurations, 10 times at most",
             "quality-b": "at least 0.90 (room, N = 5, M = 20)",
-            "success-c": "within 10 points: 1 of 2 cells",
-            "runtime-c": "2 of 2 cells",
+            "success-c": "within 10 points: 1 of 2 configurations",
+            "runtime-c": "2 of 2 configurations",
         }.items():
             with self.subTest(claim):
                 self.assertEqual(published.CLAIMS[claim](cells()), text)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests the script of the scaling study and that the pages agree with its result files."""
+"""Tests the script of the scaling study, and tests that the pages agree with its result files."""
 import fractions
 import json
 import os
@@ -40,7 +40,7 @@ class Results(unittest.TestCase):
 
 
 class LongInstances(unittest.TestCase):
-    """Tests the hour-long instances: each has a start plan of the cost stated on its page."""
+    """Tests that each hour-long instance has a start plan with the cost stated on its page."""
 
     def test_start_plans_are_valid_for_the_instances(self):
         page = (BENCHMARKS / "data/long/README.md").read_text(encoding="utf-8")

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests cluster/two_hosts and cluster/local_slurm: what runs in them, and that they leave no process, however they end.
-Exit code 77: they cannot run here; the output gives the reason."""
+"""Tests cluster/two_hosts and cluster/local_slurm: they run their commands and leave no process behind, however they
+end.
+Exits with code 77 if they cannot run here; the output gives the reason."""
 import os
 import signal
 import subprocess
@@ -15,7 +16,7 @@ from support import CLUSTER, wait_until
 
 TWO_HOSTS = CLUSTER / "two_hosts"
 LOCAL_SLURM = CLUSTER / "local_slurm"
-# Not root, but with permission to read every file, so that the test works in any folder.
+# Not root, but with permission to read every file, so that the test works in any folder:
 UNPRIVILEGED = ["setpriv", "--reuid", "65534", "--regid", "65534", "--clear-groups",
           "--inh-caps", "+dac_override", "--ambient-caps", "+dac_override"]
 
@@ -26,7 +27,7 @@ def run(*command):
 
 
 def programs_with(mark):
-    """Returns the names of the processes, in any namespace, whose environment contains `mark`."""
+    """Returns the names of the processes, in any namespace, that have `mark` in their environment."""
     found = []
     for process in Path("/proc").glob("[0-9]*"):
         try:
@@ -69,7 +70,7 @@ class Commands(unittest.TestCase):
 
 
 class Cleanup(unittest.TestCase):
-    """Tests that no process remains."""
+    """Tests that no process remains after the harness ends."""
 
     def killed_by(self, number):
         mark = f"GROVE_TEST_MARK={uuid.uuid4()}"

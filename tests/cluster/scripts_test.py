@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests the job scripts with every option of docs/command-line.md, and with options that the scripts also set
-themselves. Runs without Slurm, whose commands are replaced, and on one rank."""
+"""Tests the job scripts with every option of docs/command-line.md and with options that the scripts set themselves.
+Runs without Slurm (its commands are replaced) and on one rank."""
 import json
 import os
 import re
@@ -11,16 +11,16 @@ import unittest
 from pathlib import Path
 
 from support import CLUSTER, DATA, ROOT, checked_plan, hard_instance, program
-from mpi_test import MpiTest  # found by support
+from mpi_test import MpiTest  # support.py has extended the module path
 
 INSTANCE = DATA / "first.cts.json"
 SLURM = {
-    # Runs the command after the options of srun.
+    # Skips the options of srun and runs the command after them.
     "srun": 'while case $1 in --*) ;; *) false ;; esac; do shift; done; exec "$@"',
     "scontrol": 'echo "$@" >>scontrol.log',
 }
-# grove-mpi does not support --deterministic, --log-tree, and --anytime with the only method that has it.
-# The start plan may violate --no-following.
+# grove-mpi supports neither --deterministic nor --log-tree, and no method that --anytime requires. The start plan can
+# violate --no-following.
 NOT_OURS = {"--deterministic", "--anytime", "--log-tree", "--no-following"}
 VALUES = {
     "--omega": "0.5", "--time-limit": "20", "--memory-limit": "1", "--threads": "1",
@@ -29,7 +29,7 @@ VALUES = {
     "--incumbents": "best", "--proof": "bound.proof", "--output": "other.json", "--require-plan": None, "--log": "run.log",
     "--log-format": "jsonl", "--verbose": None, "--quiet": None, "--confine": None,
 }
-TECHNIQUES = {"--without": "bypass"}  # a technique of the policy free only
+TECHNIQUES = {"--without": "bypass"}  # a technique of the free policy only
 OF_SCENARIOS = {"--map": DATA / "empty-32x32.map", "--agents": "3"}
 
 
@@ -45,7 +45,7 @@ def words(options):
 
 
 def until(condition):
-    """Returns shell code that waits for `condition`, or until the process in the background has ended."""
+    """Returns shell code that waits until `condition` holds or the background process has ended."""
     return f"until {condition} || ! kill -0 $!; do sleep 0.05; done 2>/dev/null"
 
 
@@ -126,7 +126,7 @@ class Scripts(MpiTest):
             self.run_script(script, DATA / "empty-32x32.scen", *words(OF_SCENARIOS), "--output", "p")
 
     def requeued(self):
-        """Returns how often the job has been requeued."""
+        """Returns the number of times the job was requeued."""
         log = self.folder / "scontrol.log"
         return log.read_text(encoding="utf-8").count("requeue 7\n") if log.exists() else 0
 

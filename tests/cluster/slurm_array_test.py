@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests cluster/array.sbatch: a list of instances, one job each. Run by cluster/local_slurm."""
+"""Tests cluster/array.sbatch, which solves a list of instances, one job each. Run by cluster/local_slurm."""
 import shutil
 import tempfile
 import unittest
 from pathlib import Path
 
 from support import CLUSTER, DATA, checked_plan, submit_and_wait
-from mpi_test import MpiTest  # found by support
+from mpi_test import MpiTest  # support.py has extended the module path
 
 NAMES = ["rooms-32x32_n5_m10", "empty-32x32_n5_m10", "first"]
 

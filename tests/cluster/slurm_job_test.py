@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests cluster/solve.sbatch: one solve on two nodes. Run by cluster/local_slurm --nodes 2."""
+"""Tests cluster/solve.sbatch, which solves one instance on two nodes. Run by cluster/local_slurm --nodes 2."""
 import os
 import tempfile
 import unittest
@@ -8,7 +8,7 @@ from pathlib import Path
 
 from support import (CLUSTER, EASY, checked_plan, recorded_hosts, recording_program,
                      submit_and_wait)
-from mpi_test import MpiTest  # found by support
+from mpi_test import MpiTest  # support.py has extended the module path
 
 
 class SolveScript(MpiTest):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests cluster/preempt.sbatch: a search that is stopped and started again resumes from its checkpoint. Run by
+"""Tests cluster/preempt.sbatch: a pre-empted and restarted search resumes from its checkpoint. Run by
 cluster/local_slurm."""
 import os
 import re
@@ -13,11 +13,11 @@ from pathlib import Path
 from support import CLUSTER, checked_plan, hard_instance, run, submit_and_wait, wait_until
 
 RESUMED = re.compile(r"\bresum(ed|es|ing)\b", re.I)
-TIME_LIMIT_S = 60  # more than any run takes here
+TIME_LIMIT_S = 60  # longer than any run here takes
 
 
 class PreemptScript:
-    """Base of tests: starts a job of the script on an instance that the job will not have solved."""
+    """Base class for tests that run the script on an instance that the job cannot solve in its time."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -30,7 +30,7 @@ class PreemptScript:
                        CLUSTER / "preempt.sbatch", self.instance, "--omega", "0",
                        "--time-limit", TIME_LIMIT_S, cwd=self.folder).strip()
         self.addCleanup(subprocess.run, ["scancel", self.job], check=False)
-        # Without an expansion there is nothing to resume.
+        # Without an expansion there is nothing to resume from.
         wait_until("a plan and an expansion", lambda: re.search(r"^[A-Z* ] +[1-9]\d*( +\d+){4} ", self.log(), re.M))
 
     def log(self):
@@ -38,11 +38,11 @@ class PreemptScript:
         return path.read_text(encoding="utf-8") if path.exists() else ""
 
     def rows(self, since=0):
-        """Returns the rows of the log that have an incumbent."""
+        """Returns the rows of the log, from position `since`, that have an incumbent."""
         return re.findall(r"^[A-Z* ]( +\d+){5} ", self.log()[since:], re.M)
 
     def job_is(self, **fields):
-        """Returns whether Slurm reports these fields of the job, for example job_is(JobState="RUNNING")."""
+        """Returns whether Slurm reports these field values for the job, for example job_is(JobState="RUNNING")."""
         output = run("scontrol", "--oneliner", "show", "job", self.job)
         return all(f" {name}={value} " in output for name, value in fields.items())
 
@@ -68,8 +68,8 @@ class PreemptScript:
         self.assertGreaterEqual(plan["lower_bound"], bound_before)
 
     def starts_again(self):
-        """Releases a requeued job after 2 s; Slurm would let it wait for two minutes. A node may refuse a job in
-        the second in which it ends ("already killed"); Slurm then holds the job for good."""
+        """Releases a requeued job after 2 s instead of Slurm's delay of two minutes. A node can refuse a job in the
+        second in which its previous run ends ("already killed"), after which Slurm holds the job indefinitely."""
         if self.job_is(JobState="PENDING"):
             time.sleep(2)
             for command in (["release", self.job], ["update", f"JobId={self.job}", "StartTime=now"]):
@@ -93,7 +93,7 @@ class AnUrgentJob(PreemptScript, unittest.TestCase):
 
 class TimeOfGrace(PreemptScript, unittest.TestCase):
     def test_interrupted_ranks_end_in_time_and_the_job_is_requeued(self):
-        # A cluster with GraceTime first sends SIGTERM to the ranks, but not to the script.
+        # On a cluster with GraceTime, Slurm first sends SIGTERM to the ranks but not to the script.
         run("scancel", "--signal=TERM", self.job)
         self.wait_until_job_is(JobState="PENDING", Restarts="1")
         plan = checked_plan(self.instance, self.plan)

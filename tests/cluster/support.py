@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Provides helpers for the cluster tests, which run inside cluster/local_slurm or cluster/two_hosts. The environment
-variable GROVE_MPI names the program to test, GROVE the plan checker."""
+"""Provides helpers for the cluster tests, which run inside cluster/local_slurm or cluster/two_hosts.
+
+The environment variable GROVE_MPI names the program under test, and GROVE the plan checker."""
 import json
 import os
 import re
@@ -18,7 +19,7 @@ EASY = DATA / "rooms-32x32_n10_m30.cts.json"  # solved to optimality within a se
 
 
 def program(variable):
-    """Returns the path of the program that an environment variable names."""
+    """Returns the path of the program named by an environment variable."""
     path = os.environ.get(variable, "")
     if not os.access(path, os.X_OK):
         raise AssertionError(f"the environment variable {variable} must name a program; found "
@@ -37,8 +38,8 @@ def run(*command, **options):
 
 
 def submit_and_wait(*arguments, **options):
-    """Calls sbatch, waits, and returns the exit codes of the job, or of all jobs of the array. (sbatch --wait polls
-    only every few seconds.)"""
+    """Calls sbatch, waits, and returns the exit codes of the job, or of all jobs of an array. Polls by itself,
+    because sbatch --wait polls only every few seconds."""
     job = run("sbatch", "--parsable", *arguments, **options).strip()
     wait_until(f"job {job} has ended", lambda: not run("squeue", "--noheader", "--jobs", job))
     output = run("scontrol", "show", "job", job)
@@ -46,8 +47,8 @@ def submit_and_wait(*arguments, **options):
 
 
 def recording_program(folder):
-    """Writes a program that runs GROVE_MPI and appends the host of each started rank to `folder`/ranks. Returns its
-    path."""
+    """Writes a program that runs GROVE_MPI and appends the host name of each started rank to `folder`/ranks. Returns
+    its path."""
     path = Path(folder) / "recording-grove-mpi"
     path.write_text(f'#!/bin/sh\nhostname >>"{folder}/ranks"\n'
                     f'exec "{program("GROVE_MPI")}" "$@"\n', encoding="utf-8")
@@ -60,13 +61,13 @@ def recorded_hosts(folder):
 
 
 def checked_plan(instance, plan):
-    """Returns the content of the plan file after grove check has accepted it."""
+    """Returns the content of the plan file after `grove check` has accepted it."""
     run(program("GROVE"), "check", instance, plan)
     return json.loads(Path(plan).read_text(encoding="utf-8"))
 
 
 def hard_instance(folder):
-    """Generates an instance on which the search finds plans soon, but no proof within a minute. Returns its path."""
+    """Generates an instance for which the search finds plans soon but no proof within a minute. Returns its path."""
     path = Path(folder) / "hard.cts.json"
     run(program("GROVE"), "generate", "instance", "--map", DATA / "rooms-32x32.map",
         "--agents", 30, "--tasks", 60, "--seed", 1, "-o", path)

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests a solve on two hosts without Slurm, as docs/operators.md describes. Run by cluster/two_hosts."""
+"""Tests a solve on two hosts without Slurm, set up as docs/operators.md describes. Run by cluster/two_hosts."""
 import os
 import tempfile
 import unittest
 from pathlib import Path
 
 from support import CLUSTER, EASY, checked_plan, recorded_hosts, recording_program, run
-from mpi_test import MpiTest  # found by support
+from mpi_test import MpiTest  # support.py has extended the module path
 
 
 class TwoHosts(MpiTest):

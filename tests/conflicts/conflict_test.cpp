@@ -24,7 +24,7 @@ Cell at(const Path& path, Time t) {
   return path[std::min<std::size_t>(static_cast<std::size_t>(t), path.size() - 1)];
 }
 
-// Do agents a and b collide at time t? By definition.
+// Returns whether agents a and b collide at time t, by the definition.
 bool collide(const Path& a, const Path& b, Time t, bool may_follow = true) {
   if (at(a, t) == at(b, t)) return true;
   const auto enters = [&](const Path& one, const Path& other) {
@@ -34,7 +34,7 @@ bool collide(const Path& a, const Path& b, Time t, bool may_follow = true) {
   return t > 0 && at(a, t) == at(b, t - 1) && at(b, t) == at(a, t - 1);
 }
 
-// All times at which a pair of agents collides, except times at which both wait.
+// All times at which pairs of agents collide, except times at which both agents wait.
 using Collisions = std::multiset<std::tuple<Time, AgentIndex, AgentIndex>>;
 
 Collisions collisions(const std::vector<Path>& paths, const std::vector<AgentIndex>& agents,
@@ -100,8 +100,8 @@ TEST(ConflictFinder, FindsFollowingConflictsIfForbidden) {
   const Grid grid = open_grid(4, 1);
   ConflictFinder finder(grid, false);
   const auto conflicts = conflicts_of(finder, std::vector<Path>{{1, 2, 3}, {0, 0, 1, 2}, {0}});
-  // Agent 1 does not follow agent 0: it enters cell 1 at 2, and agent 0 left it at 1. It enters
-  // cell 2 at 3, when agent 0 has left it, too.
+  // Agent 1 does not follow agent 0: it enters cell 1 at time 2, after agent 0 left it at time 1,
+  // and enters cell 2 at time 3, when agent 0 has already left it, too.
   std::vector<Conflict> following;
   for (const Conflict& c : conflicts)
     if (c.is_following()) following.push_back(c);
@@ -147,11 +147,11 @@ TEST_P(RandomPaths, CollisionsAreFoundAndSplitsAreComplete) {
     ASSERT_TRUE(std::ranges::is_sorted(conflicts, {}, &Conflict::time));
     for (const Conflict& conflict : conflicts) {
       ++with_conflict;
-      // Both colliding paths violate their constraint, so each child must replan.
+      // Each colliding path violates the constraint of its branch, so each child must re-plan.
       const Split branches = split(conflict);
       for (const AgentConstraint& branch : branches)
         EXPECT_FALSE(satisfies(grid, paths[branch.agent], branch.constraint));
-      // Any two paths that do not collide there satisfy at least one of the two.
+      // Any two paths without this collision satisfy at least one of the two constraints.
       for (const Path& a : paths)
         for (const Path& b : paths)
           EXPECT_TRUE(collide(a, b, conflict.time, GetParam()) ||

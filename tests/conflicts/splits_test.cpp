@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Target and corridor splits. Each collision-free pair of paths must satisfy a branch of the split,
-// and the colliding pair must violate both branches.
+// Tests target and corridor splits. Each collision-free pair of paths must satisfy a branch of the
+// split, and the colliding pair must violate both branches.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -15,7 +15,7 @@ namespace splits_test {
 
 using testing::satisfies;
 
-// A random walk that seldom turns back, so that it passes through corridors.
+// A random walk that rarely turns back and therefore passes through corridors.
 Path random_walk(const Grid& grid, std::mt19937& random) {
   Path path;
   do path = {static_cast<Cell>(random() % grid.cell_count())};
@@ -33,7 +33,7 @@ Path random_walk(const Grid& grid, std::mt19937& random) {
   return path;
 }
 
-// Do both paths satisfy the constraints of one branch of the split?
+// Returns whether both paths satisfy the constraints of one branch of the split.
 bool satisfies_branch(const Grid& grid, const AgentConstraint& branch,
                       const std::array<Path, 2>& paths) {
   for (AgentIndex agent : {0, 1})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Global bounds and incumbent under concurrent calls of workers.
+// Tests the global bounds and the incumbent under concurrent calls by workers.
 #include "engine/central_bounds.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ struct ScriptedNodes : LiveNodes {
   void restart(std::span<const NodePtr>, Cost) override {}
 
   Cost least = 8;
-  std::function<void()> when_read;  // other workers' calls while the bound is read
+  std::function<void()> when_read;  // simulates calls by other workers during a read of the bound
   std::function<void()> when_pruned = [] {};
   std::vector<Cost> pruned;
 };
@@ -54,7 +54,8 @@ class Listener : public RunObserver {
 
 class CentralBoundsTest : public ::testing::Test {
  protected:
-  // Agent 0 waits one step and agent 1 steps aside, where it stays `later` further steps.
+  // A plan in which agent 0 waits one step and agent 1 steps aside, where it stays `later` more
+  // steps.
   static Plan plan(int later = 0) {
     Plan plan{11 + later, {{5, {}, {0, 0, 1, 2, 3, 4}}, {6 + later, {}, {4, 3, 2, 7, 2, 1, 0}}}};
     plan.agents[1].path.insert(plan.agents[1].path.begin() + 4, static_cast<std::size_t>(later), 7);
@@ -93,7 +94,7 @@ TEST_F(CentralBoundsTest, BoundCoversNodesAndTreesAndNeverFalls) {
                                                   {RunEvent::kBound, 9, std::nullopt}}));
 }
 
-// A bound proven outside the tree search holds for all plans, whatever the nodes' bound.
+// A bound proven outside the tree search holds for all plans, whatever the bound of the nodes.
 TEST_F(CentralBoundsTest, BoundProvenOutsideTheTreeSearchCounts) {
   bounds_.nodes_changed();
   bounds_.prove(4, BoundSource::kJointSearch);
@@ -113,7 +114,7 @@ TEST_F(CentralBoundsTest, BoundProvenOutsideTheTreeSearchCounts) {
   EXPECT_TRUE(bounds_.has_no_joint_plan());
 }
 
-// With a plan it proves that no plan is better.
+// If this bound equals the cost of the incumbent, the incumbent is optimal.
 TEST_F(CentralBoundsTest, BoundProvenOutsideTheTreesCanCloseTheGap) {
   bounds_.post(plan(), PlanSource::kStart);
   bounds_.prove(kInfiniteCost, BoundSource::kJointSearch);
@@ -123,7 +124,8 @@ TEST_F(CentralBoundsTest, BoundProvenOutsideTheTreesCanCloseTheGap) {
   EXPECT_FALSE(bounds_.has_no_joint_plan());
 }
 
-// If the trees hold no plan, a weaker bound proven outside the tree search is not the reason.
+// If the trees hold no plan, that is the reason for infeasibility, not a weaker bound proven
+// elsewhere.
 TEST_F(CentralBoundsTest, WeakerBoundIsNotTheReasonForInfeasibility) {
   nodes_.least = kInfiniteCost;
   bounds_.expect_trees_from(kInfiniteCost);
@@ -133,8 +135,8 @@ TEST_F(CentralBoundsTest, WeakerBoundIsNotTheReasonForInfeasibility) {
   EXPECT_FALSE(bounds_.has_no_joint_plan());
 }
 
-// Another worker pushes the root of the last tree and reports it just after the nodes' bound was
-// read.
+// Another worker pushes the root of the last tree and reports it just after the bound of the nodes
+// has been read.
 TEST_F(CentralBoundsTest, TreeAddedWhileTheBoundIsReadIsCounted) {
   nodes_.least = kInfiniteCost;
   nodes_.when_read = [&] { bounds_.expect_trees_from(kInfiniteCost); };
@@ -157,7 +159,7 @@ TEST_F(CentralBoundsTest, PlanIsPostedBeforeNodesArePrunedByIt) {
 
 TEST_F(CentralBoundsTest, InvalidPlanIsRefused) {
   Plan wrong = plan();
-  wrong.agents[1].path[3] = 2;  // where agent 0 is
+  wrong.agents[1].path[3] = 2;  // where agent 0 is at that time
   EXPECT_THROW(bounds_.post(wrong, PlanSource::kTree), std::logic_error);
   EXPECT_TRUE(nodes_.pruned.empty());
   EXPECT_EQ(bounds_.cutoff(), kInfiniteCost);

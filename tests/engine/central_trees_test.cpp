@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// When trees are instantiated, and in which order the bounds are updated.
+// Tests when trees are instantiated and in what order the bounds are updated.
 #include "engine/central_trees.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace grove::detail {
 namespace central_trees_test {
 
-// Trees of the costs that the test sets, as roots of these costs.
+// A forest whose trees and roots have the costs that the test sets.
 class ScriptedForest : public Forest {
  public:
   ScriptedForest(testing::SmallSearch& search, std::deque<Cost> costs)
@@ -103,7 +103,8 @@ TEST_F(CentralTreesTest, NoTreeIsDueWithinOmegaOfTheLastTree) {
   EXPECT_EQ(trees_->count(), 2);
 }
 
-// Otherwise a plan would for a moment be in no node and no tree that the bound covers.
+// In the other order there would be a moment at which neither a node nor a later tree covers some
+// plan.
 TEST_F(CentralTreesTest, RootIsPushedBeforeTheNextBoundRises) {
   std::vector<Cost> bounds_at_push;
   nodes_.when_pushed = [&] { bounds_at_push.push_back(bounds_->trees_from()); };

@@ -26,13 +26,14 @@ namespace checkpoint_test {
 
 using Names = std::vector<std::string>;
 
-// A checkpoint: its header and all its nodes.
+// A checkpoint in memory: its header and all its nodes.
 struct Whole {
   CheckpointHeader header;
   std::vector<NodeRecord> nodes;
 };
 
-// The nodes of a search, breadth first below the first five trees of the paper's forest.
+// Produces nodes of a search: breadth first below the first five trees of a forest with fixed
+// sequences.
 class Search {
  public:
   Search() {
@@ -94,7 +95,7 @@ Whole read(const std::filesystem::path& directory, std::uint64_t fingerprint, Po
   CheckpointReader reader(directory, fingerprint, policy);
   Whole whole{reader.header(), {}};
   while (auto node = reader.next()) whole.nodes.push_back(std::move(*node));
-  EXPECT_FALSE(reader.next());  // still nullopt
+  EXPECT_FALSE(reader.next());  // stays nullopt after the end
   return whole;
 }
 
@@ -124,7 +125,7 @@ TEST(Checkpoint, RoundTripsWithTenThousandNodes) {
   expect_same(read(directory.path()), whole);
 }
 
-// As a resumed run reads it.
+// Reads a checkpoint in the same way as a resumed run.
 TEST(Checkpoint, RestoresTreesAndNodes) {
   const TemporaryDirectory directory;
   const Whole whole = search().whole(300);
@@ -253,7 +254,7 @@ TEST(Checkpoint, WriterRefusesInvalidContents) {
   EXPECT_TRUE(directory.files().empty());
 }
 
-// A small checkpoint as bytes, and the result of reading other bytes in its place.
+// A small checkpoint in bytes. Tests modify the bytes and check how they are read.
 class DamagedCheckpoint : public ::testing::Test {
  protected:
   DamagedCheckpoint() {
@@ -312,7 +313,7 @@ TEST_F(DamagedCheckpoint, IsRefusedIfBytesFollowItsEnd) {
   expect_damage_found(bytes_ + bytes_, "behind", bytes_.size());
 }
 
-// Offset of each block, and of the end of the last.
+// Returns the offset of each block, and of the end of the last block.
 std::vector<std::size_t> block_begins(const std::string& bytes) {
   std::vector<std::size_t> begins{12};
   while (begins.back() < bytes.size()) {
@@ -324,7 +325,7 @@ std::vector<std::size_t> block_begins(const std::string& bytes) {
   return begins;
 }
 
-// Each block is intact and has its own checksum.
+// Each block is intact, with a correct checksum, but the blocks are lost, doubled or swapped.
 TEST_F(DamagedCheckpoint, IsRefusedIfBlocksAreLostDoubledOrSwapped) {
   write(directory_.path(), search().whole(5000));
   bytes_ = file_content(checkpoint_file(directory_.path()));
@@ -347,7 +348,7 @@ TEST_F(DamagedCheckpoint, IsRefusedIfBlocksAreLostDoubledOrSwapped) {
   }
 }
 
-// A length that is larger than the file: refused before memory for it is allocated.
+// A length above the file size is refused before memory for it is allocated.
 TEST_F(DamagedCheckpoint, IsRefusedIfALengthExceedsTheFile) {
   bytes_.replace(16, 8, std::string(6, '\xff') + '\x0f' + '\0');
   EXPECT_EQ(read_result(bytes_),

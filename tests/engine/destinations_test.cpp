@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Destinations of agents with more tasks than a cost-to-go table holds, so that the costs of their
-// last tasks are computed step by step. Compared with Held-Karp and an enumeration of all choices.
-// (Fewer tasks: tests/fuzz/methods_test.cpp.)
+// Tests the choice of destinations for agents with more tasks than a cost-to-go table can hold,
+// whose costs by last task are computed incrementally. Compares the result with Held-Karp and an
+// enumeration of all choices. (tests/fuzz/methods_test.cpp covers fewer tasks.)
 #include "engine/destinations.h"
 
 #include <gtest/gtest.h>
@@ -19,10 +19,10 @@ namespace grove::detail {
 namespace destinations_test {
 
 constexpr int kTasks = 15;
-// With seed 233 the best choice needs an end that the first iteration misses.
+// With seed 233 the best choice uses an end that the first iteration does not find.
 constexpr int kFirstSeed = 230;
 
-// Costs of the agent's best sequences, by their last task.
+// Returns the cost of the agent's best sequence for each last task.
 std::vector<Cost> costs_of_ends(const Instance& instance, AgentIndex agent) {
   std::vector<std::vector<Time>> distances;
   std::vector<Cell> cells;
@@ -83,7 +83,7 @@ TEST(Destinations, AreTheCheapestDistinctEndsOfManyTasks) {
              Tuning().visitor_steps * (std::ssize(instance.task(task).agents) - 1);
     };
     Cost best = kInfiniteCost;
-    Cost cost = kInfiniteCost;  // cost of the choice
+    Cost cost = kInfiniteCost;  // cost of the best choice
     for (int i = 0; i < kTasks; ++i)
       for (int j = 0; j < kTasks; ++j) {
         const TaskIndex tasks[] = {instance.agent(0).tasks[i], instance.agent(1).tasks[j]};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grove-fuzz-replan: applies random changes to a plan during its execution. Checks every answer and
-// compares it with a solve from scratch in the same time.
+// grove-fuzz-replan: applies random changes to a plan during its execution, checks every answer,
+// and compares it with a solve from scratch under the same time limit.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -32,7 +32,7 @@ struct Arguments {
   bool may_follow = true;
 };
 
-// Time until the first plan, and its cost.
+// Records the time until the first plan, and its cost.
 class FirstPlan : public RunObserver {
  public:
   void on_incumbent(const Plan& plan, PlanSource, const Progress&) override {
@@ -51,10 +51,12 @@ struct Results {
   int answers = 0;
   int wrong = 0;
   int not_kept = 0;
-  int without_plan = 0;                 // and none from scratch either
-  int without_plan_unlike_scratch = 0;  // although a solve from scratch found one
+  // Changes for which neither re-planning nor the solve from scratch found a plan.
+  int without_plan = 0;
+  // Changes for which only the solve from scratch found a plan.
+  int without_plan_unlike_scratch = 0;
   int infeasible = 0;
-  int impossible = 0;  // impossible changes and delays
+  int impossible = 0;  // changes and delays refused as impossible
   std::vector<double> first_s, total_s, scratch_first_s;
   std::vector<double> first_to_end, end_to_scratch, gap;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Several threads on one search: the same optimum as one thread, and with `deterministic` the same
-// run.
+// Several threads on one search find the same optimum as one thread; with `deterministic` the whole
+// run is the same.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ using testing::Crowd;
 using testing::HangLimit;
 using testing::random_crowd;
 
-// Not solved at the root, but easy: plain CBS expands some hundred nodes.
+// Instances that are not solved at the root but are easy: plain CBS expands some hundred nodes.
 std::vector<Instance> instances() {
   std::vector<Instance> all;
   for (std::uint64_t seed = 0; seed < 12; ++seed)
@@ -42,7 +42,7 @@ SolveOptions plain(int threads) {
   return options;
 }
 
-// Every event of a log, without times.
+// Records all events of a run, without times.
 class Recorder : public RunObserver {
  public:
   using Row = std::tuple<RunEvent, std::int64_t, std::int64_t, Cost, Cost>;
@@ -72,7 +72,7 @@ TEST(Multicore, FindsTheOptimumOfOneThread) {
 }
 
 TEST(Multicore, DeterministicRunIsTheSameForAnyNumberOfThreads) {
-  std::size_t longest = 0;  // in rows
+  std::size_t longest = 0;  // number of rows of the longest log
   for (const Instance& instance : instances()) {
     std::vector<Recorder::Row> rows;
     std::vector<Path> paths;
@@ -99,8 +99,8 @@ TEST(Multicore, DeterministicRunIsTheSameForAnyNumberOfThreads) {
   EXPECT_GT(longest, 10) << "too easy to be a test";
 }
 
-// An expander caches its results. In this instance a round has several work items of one worker,
-// and the count shows which expander did which item.
+// Each expander caches its own results. In this instance one worker gets several work items in a
+// round, and the label count depends on which expander executes which item.
 TEST(Multicore, DeterministicRunExpandsTheSameLabelsForAnyThreads) {
   fuzz::TinyInstance tiny;
   tiny.rows = {"....", "..@.", "@@.."};
@@ -124,7 +124,7 @@ TEST(Multicore, DeterministicRunExpandsTheSameLabelsForAnyThreads) {
   for (const int threads : {2, 3, 4}) EXPECT_EQ(labels(threads), single) << threads << " threads";
 }
 
-// The primal search receives Lagrangian multipliers while it runs.
+// The primal search receives Lagrangian multipliers during the run.
 TEST(Multicore, DeterministicRunWithLagrangianLnsIsRepeatable) {
   int with_effect = 0;
   std::vector<Instance> some = instances();
@@ -188,7 +188,7 @@ TEST(Multicore, EventsAreSerializedAndTheBoundNeverFalls) {
   }
 }
 
-// If one thread continued, the run would not end.
+// If a single thread ignored the limit, the run would not end.
 TEST(Multicore, LimitsEndEveryThread) {
   const Instance hard = random_crowd({.size = 16, .obstacles = 25, .agents = 40, .tasks = 60}, 1);
   for (const bool deterministic : {false, true}) {

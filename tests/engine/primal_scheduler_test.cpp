@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shares of tree search and primal search. The rule is at the head of primal_scheduler.cpp.
+// Tests the shares of tree search and primal search, according to the rule at the head of
+// primal_scheduler.cpp.
 #include "engine/primal_scheduler.h"
 
 #include <gtest/gtest.h>
@@ -14,9 +15,9 @@
 namespace grove::detail {
 namespace primal_scheduler_test {
 
-constexpr std::int64_t kLong = 6'400'000;  // tree work at which the cap is full
+constexpr std::int64_t kLong = 6'400'000;  // tree effort at which the cap reaches its full value
 
-// A primal search of an instance. With Techniques() it never expects a plan soon.
+// An instance with its primal search, which with Techniques() never expects a plan soon.
 struct Setting {
   explicit Setting(Instance the_instance, Techniques techniques = Techniques())
       : instance(std::move(the_instance)), primal(problem, stops, 1, techniques) {}
@@ -32,7 +33,7 @@ Instance dense_instance() {
   return testing::random_crowd({.size = 8, .obstacles = 10, .agents = 12, .tasks = 12}, 1);
 }
 
-// Scheduler of a long tree, after the primal search has used up its credit.
+// Returns a scheduler with a long tree, after the primal search has used up its credit.
 PrimalScheduler after_credit_is_spent(const PrimalSearch& primal, int agents) {
   PrimalScheduler scheduler(agents, Tuning());
   scheduler.add_tree_work(kLong);
@@ -40,7 +41,8 @@ PrimalScheduler after_credit_is_spent(const PrimalSearch& primal, int agents) {
   return scheduler;
 }
 
-// Is the primal search still due after `tree` tree work and then `work` primal work?
+// Returns whether the primal search is still due after `tree` units of tree effort followed by
+// `work` units of primal effort.
 bool is_due_after(PrimalScheduler scheduler, const PrimalSearch& primal, std::int64_t tree,
                   std::int64_t work) {
   scheduler.add_tree_work(tree);
@@ -74,7 +76,7 @@ TEST(PrimalScheduler, CapGrowsFromAQuarterWithTheTreeWork) {
 }
 
 TEST(PrimalScheduler, RatioWithoutAPlanFallsAfterManyFailures) {
-  // The agents cannot pass each other, which the primal search does not detect.
+  // The agents cannot pass each other; the primal search does not detect this.
   Setting s(testing::instance_of({"......"}, {{{0, 0}, Position{5, 0}}, {{5, 0}, Position{0, 0}}}));
   expect_ratio(after_credit_is_spent(s.primal, 2), s.primal, 8);
   for (int i = 0; i < 10'000 && s.primal.counts().attempts <= 4; ++i) s.primal.step(s.limits);
@@ -102,7 +104,7 @@ TEST(PrimalScheduler, RatioWithAPlanFollowsItsSuccess) {
 }
 
 TEST(PrimalScheduler, RatioIsAtLeastOneWhileTreesAreDominated) {
-  // The agents cannot pass each other, which the primal search does not detect: it fails often.
+  // The agents cannot pass each other; the primal search does not detect this and fails repeatedly.
   Setting s(testing::instance_of({"......"}, {{{0, 0}, Position{5, 0}}, {{5, 0}, Position{0, 0}}}));
   for (int i = 0; i < 10'000 && s.primal.counts().attempts <= 4; ++i) s.primal.step(s.limits);
   Tuning tuning;
@@ -123,7 +125,7 @@ TEST(PrimalScheduler, CapIsFullForAShortTreeWhileTheGapIsLarge) {
   Setting s(dense_instance());
   while (!s.primal.best_cost()) s.primal.step(s.limits);
   PrimalScheduler scheduler(12, Tuning());
-  scheduler.add_primal_work(s.primal, 0);  // it has just found a plan: x = 1
+  scheduler.add_primal_work(s.primal, 0);  // x = 1, as if the primal search had just found a plan
   PrimalScheduler large_gap = scheduler;
   scheduler.add_tree_work(2000);
   scheduler.add_primal_work(s.primal, 1000);

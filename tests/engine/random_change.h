@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random delays of robots and random changes of an instance during the execution of a plan.
+// Random delays and random instance changes during the execution of a plan.
 #pragma once
 
 #include <vector>
@@ -10,11 +10,12 @@
 
 namespace grove::detail::testing {
 
-// Delays at most two robots by up to 12 of the `time` steps of the plan that they have executed.
+// Delays at most two robots. Each gets a delay of at most 12 of the `time` steps of the plan
+// executed so far.
 std::vector<Delay> random_delays(const Instance& instance, Time time, Random& random);
 
-// Adds a task, drops one, or closes a cell or a road: at least one of these. Some of these changes
-// are impossible, for instance closing the cell of a robot.
+// Returns a change that adds a task, drops a task, closes a cell or closes a road, or several of
+// these. The change can be impossible, for instance if it closes the cell of a robot.
 InstanceChange random_change(const Instance& instance, Random& random);
 
 }  // namespace grove::detail::testing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Searches that are stopped and resumed from their checkpoint reach the same optimum.
+// Searches that are stopped and resumed from their checkpoints reach the same optimum.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -27,7 +27,7 @@ SolveOptions plain() {
   return options;
 }
 
-// Interrupts the run after `after` expansions.
+// Interrupts the run after a given number of expansions.
 class Interrupter : public RunObserver {
  public:
   explicit Interrupter(std::int64_t after) : left_(after) {}
@@ -42,7 +42,7 @@ class Interrupter : public RunObserver {
   }
 
   std::atomic<bool> interrupted{false};
-  std::atomic<bool> requested{false};  // for a checkpoint
+  std::atomic<bool> requested{false};  // requests a checkpoint
   int written = 0;
 
  private:
@@ -56,7 +56,7 @@ Solution solve_for(const Instance& instance, const SolveOptions& options,
   return solve(instance, options, limits, &interrupter);
 }
 
-// Resumes from the checkpoint in `folder`, if there is one, for `expansions` expansions.
+// Runs for `expansions` expansions, resuming from the checkpoint in `folder` if there is one.
 Solution resume_for(const Instance& instance, SolveOptions options,
                     const std::filesystem::path& folder, std::int64_t expansions) {
   std::unique_ptr<CheckpointReader> reader;
@@ -72,8 +72,9 @@ Solution resume_for(const Instance& instance, SolveOptions options,
   return solution;
 }
 
-// Stops and resumes repeatedly, each time with another number of threads; the bound never falls.
-// Skips instances that 200 expansions do not solve.
+// Stops and resumes a search repeatedly, each time with a different number of threads, and expects
+// that the bound never falls and the optimum is the same. Skips instances that 200 expansions do
+// not solve.
 void expect_same_optimum(const Instance& instance, SolveOptions options, int& resumed) {
   Interrupter enough(200);
   const Solution truth = solve_for(instance, options, enough);

@@ -35,7 +35,7 @@ bool same(const AgentPlan& a, const AgentPlan& b) {
   return a.cost == b.cost && a.sequence == b.sequence && a.path == b.path;
 }
 
-// Message of the refusal, or "" if the bytes are accepted.
+// Returns the message of the refusal, or "" if the bytes are accepted.
 template <class T>
 std::string refusal(std::string_view bytes) {
   try {
@@ -63,7 +63,7 @@ TEST(Bytes, RestoreTheValue) {
   EXPECT_EQ(from_bytes<Counts>(to_bytes(counts)), counts);
 }
 
-// The byte order is part of the format, independent of the machine.
+// The byte order is part of the format and independent of the machine.
 TEST(Bytes, HaveAFixedByteOrder) {
   EXPECT_EQ(to_bytes(std::uint32_t{300}), "\xAC\2");
   EXPECT_EQ(to_bytes(1.0), std::string("\0\0\0\0\0\0\xF0\x3F", 8));
@@ -116,7 +116,7 @@ TEST(Bytes, AreRefusedIfTruncatedOrTooLong) {
   expect_every_truncation_refused(a_plan());
 }
 
-// A damaged byte yields another value of the same shape, or is refused.
+// Every bit flip is either refused or yields a different value of the same shape.
 template <class T>
 void expect_every_bit_flip_detected(const T& value) {
   const std::string bytes = to_bytes(value);
@@ -149,7 +149,7 @@ TEST(Bytes, AreReadSafelyIfRandom) {
   }
 }
 
-// Refused before memory for the items is allocated.
+// A count above the number of bytes left is refused before memory for the items is allocated.
 TEST(Bytes, AreRefusedIfACountExceedsTheBytesLeft) {
   const std::string message = "found a number of items above the number of bytes left";
   const std::string bytes = to_bytes(a_node());
@@ -170,7 +170,7 @@ TEST(Bytes, AreRefusedIfNoBoolOrConstraintKind) {
   EXPECT_TRUE(is_refused<bool>("\2"));
   Constraint constraint;
   std::string bytes = to_bytes(constraint);
-  // Nodes of earlier versions could have constraints on the sequence.
+  // Nodes in earlier versions could have constraints on the sequence.
   for (const auto kind : {ConstraintKind::kStopIs, ConstraintKind::kStopIsNot}) {
     bytes.back() = static_cast<char>(kind);
     EXPECT_TRUE(is_refused<Constraint>(bytes));

@@ -23,7 +23,7 @@ namespace session_test {
 using testing::AgentSpec;
 using testing::instance_of;
 
-constexpr std::int64_t kLimitChecks = 10'000;  // checks of the limits per solve
+constexpr std::int64_t kLimitChecks = 10'000;  // limit on clock readings per solve
 
 SolveOptions with_omega(Omega omega) {
   SolveOptions options;
@@ -67,7 +67,7 @@ TEST(Session, AdvancesAlongItsPlan) {
 TEST(Session, DelayedAgentIsBehindItsPlan) {
   Session session = session_of(instance_of(
       {"......"}, {AgentSpec{{0, 0}, Position{4, 0}, {}}, AgentSpec{{1, 0}, Position{5, 0}, {}}}));
-  // Agent 1 blocks agent 0.
+  // Agent 1 blocks agent 0, so a delay of agent 1 also delays agent 0.
   const Delay late{1, 2};
   session.advance(3, {&late, 1});
   const Grid& grid = session.instance().grid();
@@ -167,7 +167,7 @@ TEST(Session, DelayBeyondTheStartIsRefused) {
   EXPECT_EQ(session.instance().agent(0).start, 0);
 }
 
-// A robot that starts in the middle of a task, 1 of 5 steps done.
+// A robot that starts in the middle of a task, with 1 of 5 steps completed.
 Instance working_robot() {
   InstanceBuilder builder(testing::grid_of({"...."}));
   detail::AgentSpec spec{.id = "a", .start = {.place = 0}, .goal = 3};
@@ -188,15 +188,16 @@ TEST(Session, DelayAppliesToWorkBegunBeforeTheStart) {
     EXPECT_EQ(session.plan()->cost, 4 + steps);
     EXPECT_EQ(solved(session, Omega()).plan->cost, 4 + steps);
   }
-  // Without delay it would have completed the task.
+  // Without the delay it would have completed the task.
   Session session = session_of(working_robot());
   const Delay late{0, 4};
   session.advance(6, {&late, 1});
   EXPECT_EQ(session.instance().spec(0).working->done, 3);
 }
 
-// After one step its only remaining task is at the end of the row, but the old plan still returns.
-// With `other`, another agent ends on that task's cell.
+// A session in which, after one step, the agent's only remaining task is at the end of the row,
+// while the old plan still returns to the start. With `other`, a second agent ends on the cell of
+// that task.
 Session returning_session(bool other) {
   std::vector<AgentSpec> agents{{{2, 0}, std::nullopt, {Position{2, 0}, Position{4, 0}}}};
   if (other) agents.push_back({{0, 1}, Position{4, 0}, {}});
@@ -227,7 +228,8 @@ TEST(Session, AgentWithoutDestinationEndsOnAnyRemainingTask) {
   EXPECT_FALSE(solution.stats.texts.contains("ends_of_old_plan"));
 }
 
-// If it cannot end on another task, it ends where the old plan does, and the stats report this.
+// If the agent cannot end on another task, it ends where the old plan ends, and the statistics
+// report this.
 TEST(Session, EndOfTheOldPlanIsKeptIfNoOtherIsFree) {
   for (const Time commit : {0, 1}) {
     Session session = returning_session(true);
@@ -239,7 +241,7 @@ TEST(Session, EndOfTheOldPlanIsKeptIfNoOtherIsFree) {
     EXPECT_EQ(solution.stats.texts.at("ends_of_old_plan"), "a0");
     EXPECT_EQ(session.instance().agent(0).goal, 2);
     session.advance(1);
-    EXPECT_TRUE(session.instance().agent(0).is_idle());  // it has visited all its tasks
+    EXPECT_TRUE(session.instance().agent(0).is_idle());  // after all its tasks have been visited
   }
 }
 
@@ -274,7 +276,7 @@ TEST(Session, SolvesFromScratchWithoutAPlan) {
   EXPECT_EQ(solution.plan->agents[0].sequence.size(), 1u);
 }
 
-// The old instance and plan, of which a new plan must keep the first `steps` steps.
+// The old instance and plan. A new plan must keep the first `steps` steps of the old one.
 struct Kept {
   Instance instance;
   Plan plan;
@@ -302,8 +304,8 @@ bool same_actions(const ActionDependencyGraph& before, const ActionDependencyGra
   return true;
 }
 
-// Robots follow the old action dependency graph with random delays, within the committed steps.
-// Every state that they can be in at any moment is allowed by the new graph.
+// Lets robots follow the old action dependency graph with random delays within the committed steps,
+// and expects that the new graph allows every state in which they can be.
 void expect_safe(const Kept& kept, const Instance& now, const Plan& plan, std::uint64_t seed) {
   const ActionDependencyGraph before(kept.instance, kept.plan);
   const ActionDependencyGraph after(now, plan);
@@ -317,7 +319,7 @@ void expect_safe(const Kept& kept, const Instance& now, const Plan& plan, std::u
     return is_committed(a) ? delays(a, begin) : kNever;
   });
   for (Time moment = 0; moment < 50; moment += 1 + moment / 4) {
-    const auto is_done = [&](ActionIndex a) {  // of the new graph
+    const auto is_done = [&](ActionIndex a) {  // `a`: an action of the new graph
       const AgentIndex robot = after.actions()[a].agent;
       const ActionIndex same = before.begin_of(robot) + a - after.begin_of(robot);
       return same < before.end_of(robot) && is_committed(same) && executed.end[same] <= moment;
@@ -337,7 +339,7 @@ Instance random_instance(std::uint64_t seed) {
   return tiny.build();
 }
 
-// Advances the session and checks the plan and the states of delayed robots.
+// Advances the session, then checks the plan and the states of delayed robots.
 void advance_and_check(Session& session, Time time, Random& random) {
   const Instance before = session.instance();
   const Plan plan = *session.plan();
@@ -362,8 +364,8 @@ void advance_and_check(Session& session, Time time, Random& random) {
   }
 }
 
-// The proven bound and status hold for the current instance. Returns 1 if the oracle could solve
-// it, else 0.
+// Expects that the proven bound and the status hold for the current instance. Returns 1 if the
+// oracle could solve the instance, otherwise 0.
 int expect_proven(const Instance& instance, const Solution& solution) {
   const oracle::Answer truth = oracle::solve_jointly(instance, 100'000);
   if (truth.verdict == oracle::Verdict::kTooLarge) return 0;
@@ -408,7 +410,7 @@ TEST(SessionFuzz, EveryAnswerIsValidAndKeepsTheCommittedSteps) {
         proven += expect_proven(session.instance(), best);
         if (!changed) {
           ASSERT_TRUE(best.plan);
-          ASSERT_LE(best.plan->cost, kept.plan.cost);  // the old plan is still possible
+          ASSERT_LE(best.plan->cost, kept.plan.cost);  // the old plan remains possible
         }
         ends += static_cast<int>(best.stats.texts.count("ends_of_old_plan"));
         if (!best.plan) break;
@@ -433,8 +435,8 @@ TEST(SessionFuzz, EveryAnswerIsValidAndKeepsTheCommittedSteps) {
   RecordProperty("ends_of_old_plan", ends);
 }
 
-// The bound given the committed steps: in most instances the plan that begins with these steps
-// reaches it.
+// The bound is proven for plans that start with the committed steps. In most instances the plan
+// found reaches it.
 TEST(SessionFuzz, BoundGivenTheCommittedStepsIsMostlyReached) {
   int optimal = 0;
   for (std::uint64_t seed = 1000; seed < 1100; ++seed) {

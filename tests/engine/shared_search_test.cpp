@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which node a worker takes, and how its expansion is recorded.
+// Tests which node a worker takes and how its expansion is recorded.
 #include "engine/shared_search.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A small search for tests of its parts: nodes made by hand below a real root, and scripted objects
-// in place of the other parts.
+// A small search for unit tests of the engine: nodes constructed by hand below a real root, and
+// scripted replacements for the other components.
 #pragma once
 
 #include <algorithm>
@@ -19,13 +19,13 @@
 
 namespace grove::detail::testing {
 
-// Two agents that must pass each other in a bay: their individual paths cost 8 together, the
-// optimum 11.
+// Two agents that must pass each other in a bay. The sum of their individual costs is 8; the
+// optimum is 11.
 inline Instance two_in_a_bay() {
   return instance_of({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
 }
 
-// A search of that instance with its root, of cost 8, and its live nodes.
+// A search on an instance, by default two_in_a_bay(), with its root and its live nodes.
 struct SmallSearch {
   explicit SmallSearch(Instance the_instance = two_in_a_bay())
       : instance(std::move(the_instance)), root(forest.next_root()) {}
@@ -46,7 +46,7 @@ struct SmallSearch {
   NodePtr root;
 };
 
-// Bounds with the values that the test sets; records the calls.
+// Bounds with values that the test sets; records the calls.
 struct ScriptedBounds : SharedBounds {
   bool over() const override { return is_over; }
   Cost cutoff() const override { return incumbent ? incumbent->cost : kInfiniteCost; }
@@ -65,12 +65,12 @@ struct ScriptedBounds : SharedBounds {
   std::optional<Plan> incumbent;
   Cost bound = 0;
   std::vector<std::pair<Plan, PlanSource>> posted;
-  const LocalNodes* nodes = nullptr;  // examined at each call
+  const LocalNodes* nodes = nullptr;  // sampled at each call
   std::size_t live_when_posted = 0;
   std::size_t live_when_changed = 0;
 };
 
-// Counts its calls.
+// Counts the calls.
 struct CountingSource : TreeSource {
   void instantiate_due_tree() override { ++due; }
   void refill_nodes() override {
@@ -85,7 +85,7 @@ struct CountingSource : TreeSource {
   bool may_prepare = false;
   int prepared = 0;
   LocalNodes* nodes = nullptr;
-  NodePtr next;  // pushed by the next refill_nodes()
+  NodePtr next;  // pushed by the next call of refill_nodes()
 };
 
 struct CountingObserver : WorkObserver {

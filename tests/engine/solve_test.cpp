@@ -57,20 +57,19 @@ TEST(Solve, IdleAgentAtItsGoalCostsNothing) {
 }
 
 TEST(Solve, AgentsPassInABay) {
-  // One agent steps into the bay and back, and the other waits a step for it.
+  // One agent steps into the bay and back; the other waits one step for it.
   expect_optimal(
       instance_of({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}}), 11);
 }
 
 TEST(Solve, AgentLeavesItsGoalToLetAnotherPass) {
-  // a1 stands on its destination in the middle of the corridor; it can only leave into the bay
-  // below.
+  // a1 is on its destination in the middle of the corridor and can only leave into the bay below.
   expect_optimal(
       instance_of({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{2, 0}, Position{2, 0}}}), 7);
 }
 
 TEST(Solve, TaskIsVisitedBeforeAnotherAgentRestsOnIt) {
-  // a0's task is a1's destination in a dead end: a0 must go in and out before a1 rests there.
+  // a0's task is a1's destination in a dead end: a0 must enter and leave before a1 rests there.
   expect_optimal(
       instance_of({"....", "@.@@"}, {{{0, 0}, Position{3, 0}, {{1, 1}}}, {{2, 0}, Position{1, 1}}}),
       5 + 5);
@@ -111,7 +110,7 @@ TEST(Solve, InfiniteOmegaBuildsOneTree) {
 }
 
 TEST(Solve, DetectsThatAgentsLackRoomToPass) {
-  // A dead-end tree without room to pass.
+  // A tree-shaped map in which the agents have no room to pass each other.
   const Solution solution = solve_to(
       instance_of({"...", "@.@"},
                   {{{0, 0}, Position{2, 0}}, {{2, 0}, Position{1, 1}}, {{1, 0}, Position{0, 0}}}),
@@ -136,7 +135,7 @@ TEST(Solve, TinyMemoryLimitEndsTheRunCleanly) {
   EXPECT_EQ(solution.stats.texts.at("stopped_by"), "memory limit");
 }
 
-// Interrupts the run after a number of expansions.
+// Interrupts the run after a given number of expansions.
 class Interrupter : public RunObserver {
  public:
   explicit Interrupter(int after) : left_(after) {}
@@ -156,14 +155,14 @@ TEST(Solve, InterruptKeepsTheBound) {
   const Instance instance =
       testing::random_crowd({.size = 8, .obstacles = 10, .agents = 12, .tasks = 12}, 1);
   SolveOptions options;
-  options.techniques = Techniques();  // so that it expands more nodes
+  options.techniques = Techniques();  // plain CBS, which expands more nodes
   const Solution solution = solve(instance, options, limits, &interrupter);
   EXPECT_EQ(solution.status, Status::kUnknown);
   EXPECT_EQ(solution.stats.texts.at("stopped_by"), "interrupt");
   EXPECT_GT(solution.lower_bound, 0);
 }
 
-// Expects that the reported bound never falls.
+// Expects that the reported lower bound never falls.
 class BoundWatcher : public RunObserver {
  public:
   void on_event(RunEvent, const Progress& progress) override {
@@ -186,7 +185,7 @@ TEST(Solve, ReportedBoundNeverFalls) {
   EXPECT_NE(solution.status, Status::kInfeasible);
 }
 
-// Agents that change sides through two doors: within seconds the tree search finds no plan.
+// Returns agents that change sides through two doors. The tree search finds no plan within seconds.
 Instance two_doors() {
   std::vector<std::string> rows(10, "....@....");
   rows[2] = rows[6] = ".........";
@@ -222,7 +221,7 @@ class IncumbentWatcher : public RunObserver {
   std::vector<PlanSource> sources;
 };
 
-// Solves until `incumbents` incumbents were found.
+// Solves until the run has found `incumbents` incumbents.
 Solution solve_until(const Instance& instance, const SolveOptions& options,
                      IncumbentWatcher& watcher, int incumbents) {
   testing::HangLimit limits;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which work items a worker chooses, and when their results are visible to others.
+// Tests which work items a worker chooses and when their results become visible to other workers.
 #include "engine/worker.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace worker_test {
 
 using Job = Worker::WorkItem::Job;
 
-// A search whose workers the test drives step by step.
+// A search with workers that the test advances step by step.
 struct Search : testing::SmallSearch {
   explicit Search(Techniques techniques, Instance the_instance = testing::two_in_a_bay())
       : SmallSearch(std::move(the_instance)) {
@@ -65,8 +65,8 @@ TEST(Worker, WorkItemIsVisibleToOthersOnceCommitted) {
   EXPECT_EQ(s.observer.work_items, 1);
 }
 
-// Work counts labels, 16 per call of the low level, and a quarter of the steps of the node's paths.
-// whole_work() adds the other expensive operations.
+// The effort of an item is its number of labels, plus 16 per call of the low level, plus a quarter
+// of the steps of the node's paths. whole_work() adds the other expensive operations.
 TEST(Worker, CountsTheWorkOfAnItem) {
   Search s({Technique::kStrongBranching, Technique::kWdg, Technique::kJointMdd});
   Worker worker = s.worker();
@@ -106,7 +106,7 @@ TEST(Worker, StartsWithPrimalSearchIfTheRootIsLarge) {
   EXPECT_EQ(Search::job_of(fixed.worker().choose()), Job::kExpand) << "plain CBS";
 }
 
-// The plans that worker `number` finds in its first `items` primal work items.
+// Returns the plans that worker `number` finds in its first `items` primal work items.
 std::vector<Plan> found_by(Search& s, int number, int items) {
   Worker worker = s.worker(number);
   for (int i = 0; i < items; ++i) {
@@ -126,7 +126,7 @@ std::vector<Plan> found_by(Search& s, int number, int items) {
 TEST(Worker, PrimalSearchOfEachWorkerHasItsOwnSeed) {
   const auto paths = [](int number) {
     Search s(Techniques::defaults(), large_dense_instance());
-    s.nodes.frontier.take();  // nothing to expand
+    s.nodes.frontier.take();  // so that no node can be expanded
     std::vector<Path> all;
     for (const Plan& plan : found_by(s, number, 40))
       for (const AgentPlan& agent : plan.agents) all.push_back(agent.path);

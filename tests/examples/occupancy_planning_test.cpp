@@ -14,7 +14,8 @@ namespace occupancy_planning_test {
 
 using std::numbers::pi;
 
-// Rows from top to bottom: '.' free, '#' occupied, '?' unknown. A pixel is 10 cm wide.
+// Returns a map from rows, top to bottom: '.' free, '#' occupied, '?' unknown. A pixel is 10 cm
+// wide.
 Occupancy occupancy(const std::vector<std::string>& rows, Pose2d origin = {}) {
   Occupancy map{.width = static_cast<int>(rows[0].size()),
                 .height = static_cast<int>(rows.size()),
@@ -75,7 +76,7 @@ TEST(OccupancyPlanning, OriginIsTheLowerLeftCorner) {
   const Pose2d middle = grid.middle({0, 3});
   EXPECT_NEAR(middle.x, 1.05, 1e-9);
   EXPECT_NEAR(middle.y, 2.05, 1e-9);
-  // A rotated map: its x axis points up.
+  // In a map rotated by 90 degrees the x axis points up.
   const PlanningGrid turned(occupancy(kRows, {.x = 1, .y = 2, .yaw = pi / 2}), 0.1);
   EXPECT_EQ(turned.cell_at({.x = 0.95, .y = 2.55}, "f"), (grove::Cell{5, 3}));
 }
@@ -139,7 +140,8 @@ TEST(OccupancyPlanning, PlanVisitsAllPlaces) {
   }
 }
 
-// The robot faces its next move, also while it waits; after the last move it keeps its direction.
+// The robot faces the direction of its next move, also while it waits. After its last move it keeps
+// its direction.
 TEST(OccupancyPlanning, RobotFacesItsNextMove) {
   const PlanningGrid grid(occupancy(kRows), 0.1);
   const auto at = [](int x, int y) { return grove::Pose{.place = grove::Cell{x, y}}; };

@@ -19,7 +19,7 @@ using testing::AgentSpec;
 using ::testing::ElementsAre;
 using testing::instance_of;
 
-// A plan from paths that are written as cells.
+// Returns a plan from paths given as cells.
 Plan plan_of(const Instance& instance, const std::vector<std::vector<Position>>& paths) {
   Plan plan;
   for (const auto& cells : paths) {
@@ -57,8 +57,8 @@ TEST(ActionDependencyGraph, FollowerDependsOnTheMoveOfItsLeader) {
   EXPECT_THAT(dependencies(order), ElementsAre(kNoAction, kNoAction, 0, 1));
 }
 
-// The second agent enters places that the first has left. A dependency is omitted if an earlier one
-// implies it, because the first agent left that place earlier.
+// The second agent enters places that the first agent has left. A dependency is omitted if the
+// first agent left the place even earlier, because an earlier dependency then implies it.
 TEST(ActionDependencyGraph, OmitsTransitiveDependencies) {
   const Instance instance = instance_of(
       {"....", "...."}, {AgentSpec{{0, 0}, Position{3, 1}}, AgentSpec{{0, 1}, Position{3, 0}}});
@@ -67,7 +67,7 @@ TEST(ActionDependencyGraph, OmitsTransitiveDependencies) {
       plan_of(instance,
               {{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}},
                {{0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {1, 1}, {2, 1}, {2, 0}, {3, 0}}}));
-  EXPECT_EQ(order.waits(), 2);  // for (2, 0) and (3, 0): the second is left after the first
+  EXPECT_EQ(order.waits(), 2);  // for (2, 0) and (3, 0), which is left later
   const Instance back = instance_of(
       {"....", "...."}, {AgentSpec{{0, 0}, Position{3, 1}}, AgentSpec{{0, 1}, Position{0, 0}}});
   const ActionDependencyGraph backwards(
@@ -75,7 +75,7 @@ TEST(ActionDependencyGraph, OmitsTransitiveDependencies) {
       plan_of(back,
               {{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}},
                {{0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {1, 1}, {2, 1}, {2, 0}, {1, 0}, {0, 0}}}));
-  EXPECT_EQ(backwards.waits(), 1);  // (1, 0) and (0, 0) were left before (2, 0)
+  EXPECT_EQ(backwards.waits(), 1);  // for (2, 0) only, because (1, 0) and (0, 0) were left before
   EXPECT_EQ(backwards.transitive_waits(), 2);
 }
 
@@ -106,10 +106,10 @@ TEST(ActionDependencyGraph, RefusesCollisions) {
 
 // --- random plans ---
 
-// All dependencies by definition, as pairs: `first` must be completed before `second` begins. For
-// each place, in order of time, a robot that enters it after another robot waits until that one has
-// left. The actions of one agent depend on each other in their order. close_transitively() adds the
-// implied ones.
+// Returns all dependencies by definition, as pairs: `first` must be completed before `second`
+// starts. For each place, a robot that enters it after another robot waits until that robot has
+// left. The actions of one agent depend on each other in order. close_transitively() adds the
+// implied dependencies.
 std::set<std::pair<ActionIndex, ActionIndex>> all_waits(const World& world,
                                                         const ActionDependencyGraph& order,
                                                         const std::vector<bool>& in_rotation) {
@@ -137,7 +137,7 @@ void close_transitively(std::set<std::pair<ActionIndex, ActionIndex>>& waits,
   std::vector<std::vector<bool>> is(count, std::vector<bool>(count));
   for (const auto& [a, b] : waits) is[a][b] = true;
   // A dependency of one action of a rotation holds for all its actions, and an action that depends
-  // on one of them depends on all.
+  // on one action of a rotation depends on all of them.
   for (std::int32_t step = 0; step < order.step_count(); ++step)
     for (const ActionIndex b : order.step(step))
       for (const ActionIndex c : order.step(step))
@@ -190,7 +190,7 @@ TEST(ActionDependencyGraph, EqualsTheDefinitionWithoutRedundancy) {
     close_transitively(actual, order);
     EXPECT_EQ(actual, expected) << seed;
     for (ActionIndex a = 0; a < static_cast<ActionIndex>(order.actions().size()); ++a) {
-      EXPECT_FALSE(expected.contains({a, a})) << seed;  // no action waits for itself
+      EXPECT_FALSE(expected.contains({a, a})) << seed;  // no cyclic dependency
       if (order.after(a) == kNoAction) continue;
       auto less = waits_of(order, a);
       close_transitively(less, order);

@@ -52,7 +52,7 @@ TEST(Advance, RemainingPlanSolvesTheRemainingInstance) {
       const Remainder rest = advance(instance, *plan, time);
       ASSERT_EQ(first_violation(rest.instance, rest.plan), "") << seed << " after " << time;
       EXPECT_LE(rest.plan.cost, plan->cost);
-      // To advance by `time` and then by 1 is the same as to advance by `time` + 1.
+      // Advancing by `time` and then by 1 is the same as advancing by `time` + 1.
       const Remainder next = advance(rest.instance, rest.plan, 1);
       const Remainder both = advance(instance, *plan, time + 1);
       EXPECT_EQ(next.plan.cost, both.plan.cost) << seed << " after " << time;

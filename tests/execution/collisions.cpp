@@ -11,7 +11,7 @@ namespace {
 
 struct Stay {
   AgentIndex agent;
-  Time enters_begin;  // of the move onto the place; negative for a start
+  Time enters_begin;  // start of the move onto the place; negative if the robot starts there
   Time enters_end;
   Time leaves_begin = kNever;
   Time leaves_end = kNever;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Collision test for execution traces, from the definition of a collision only, not from the
-// passing order.
+// Collision test for execution traces. Uses only the definition of a collision, not the passing
+// order.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace grove::detail::testing {
 
-// Describes a collision in the trace; empty if there is none. A robot is on its place until its
-// move away from it ends, and on the next place from the beginning of that move. Two robots on one
-// place at one time collide. Exception: one may enter a place exactly while the other leaves it, if
-// both moves begin and end together, as in one step of a plan, and the two do not swap. Actions
-// that are never begun are ignored.
+// Describes a collision in the trace; returns an empty string if there is none. A robot occupies
+// its place until its move away ends, and the next place from the start of that move. Two robots
+// that occupy a place at the same time collide, with one exception: a robot may enter a place while
+// another leaves it if both moves start and end at the same times, as in one step of a plan, and
+// the two robots do not swap. Actions that never start are ignored.
 std::string collision(const World& world, const ActionDependencyGraph& order,
                       const ExecutionTrace& trace, const std::vector<State>& starts);
 

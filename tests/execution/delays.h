@@ -10,8 +10,9 @@
 
 namespace grove::detail::testing {
 
-// One random schedule: some actions take longer, some robots are slower, there are long stops, and
-// with `may_fail` some robots fail. It depends only on the seed, not on when actions begin.
+// A random delay schedule: some actions take longer, some robots are slower, some make long stops
+// and, with `may_fail`, some fail. It depends only on the seed, not on the times at which actions
+// start.
 class Delays {
  public:
   Delays(const ActionDependencyGraph& order, std::uint64_t seed, bool may_fail = false);
@@ -26,7 +27,7 @@ class Delays {
   double delayed_ = 0;             // probability that an action takes longer
   double stops_ = 0;               // probability that it takes much longer
   std::vector<double> slowness_;   // by agent
-  std::vector<ActionIndex> last_;  // by agent: action in which it fails; kNoAction: none
+  std::vector<ActionIndex> last_;  // by agent: the action in which it fails; kNoAction: no failure
   bool fails_ = false;
 };
 

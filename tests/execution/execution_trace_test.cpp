@@ -71,7 +71,7 @@ TEST(ExecutionTrace, OnlyRobotsBehindFailedOnesAreBlocked) {
         ASSERT_GE(s.waits_for, 0);
         has_failed |= s.waits_for == s.agent;
         held_up += s.waits_for != s.agent ? 1 : 0;
-        // The robot that it waits for is blocked, too.
+        // If one robot waits for another, that robot is blocked, too.
         EXPECT_TRUE(std::ranges::find(all, s.waits_for, &BlockedRobot::agent) != all.end());
       }
       EXPECT_TRUE(has_failed) << seed << ", " << schedule;
@@ -80,7 +80,7 @@ TEST(ExecutionTrace, OnlyRobotsBehindFailedOnesAreBlocked) {
   EXPECT_GT(held_up, 50);
 }
 
-// Plans in which no robot enters a place in the step in which another leaves it.
+// Plans in which no robot enters a place in the step in which another robot leaves it.
 TEST(ExecutionTrace, NominalTakesNoLongerThanPlanWithoutFollowing) {
   int without_following = 0;
   int longer = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// grove-fuzz-execution: executes random plans with random disturbances. No robots may collide and
-// no robot may wait for ever. For comparison, the same disturbances with robots that follow the
-// times of the plan.
+// grove-fuzz-execution: executes random plans with random disturbances. Robots must not collide,
+// and no robot may wait for ever. For comparison, it applies the same disturbances to robots that
+// follow the times of the plan.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -33,13 +33,13 @@ struct Counts {
   std::int64_t deadlocks = 0;
   std::int64_t collisions_by_clock = 0;
   std::int64_t switches = 0;
-  // Sums of ratios to the value of the plan.
+  // Sums of ratios to the corresponding value of the plan.
   double undisturbed = 0;
   double makespans = 0;
   double makespans_switching = 0;
   double costs = 0;
   double costs_switching = 0;
-  int worse = 0;  // drives whose sum of costs is higher with switching
+  int worse = 0;  // executions whose sum of costs is higher with switching
 };
 
 std::optional<Plan> solved(const Instance& instance) {
@@ -50,8 +50,8 @@ std::optional<Plan> solved(const Instance& instance) {
   return solve(instance, options, limits).plan;
 }
 
-// Up to two groups of four robots, each of which rotates on a square of four cells, and up to two
-// other robots.
+// An instance with up to two groups of four robots, each group rotating on a square of four cells,
+// and up to two other robots.
 Instance roundabouts(std::uint64_t seed) {
   Random random(seed);
   const int width = 5 + random.below(3);
@@ -63,7 +63,7 @@ Instance roundabouts(std::uint64_t seed) {
     try {
       builder.add_agent(fmt::format("r{}", robots), start, goal);
       ++robots;
-    } catch (const InstanceError&) {  // taken
+    } catch (const InstanceError&) {  // occupied
     }
   };
   constexpr Position kRound[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -82,8 +82,8 @@ Instance roundabouts(std::uint64_t seed) {
   return std::move(builder).build();
 }
 
-// Execution in which each robot ignores the others, but begins no action before its time in the
-// plan.
+// Returns an execution in which each robot ignores the others but starts no action before its time
+// in the plan.
 ExecutionTrace by_clock(const ActionDependencyGraph& order, Delays delays) {
   ExecutionTrace trace{std::vector<Time>(order.actions().size()),
                        std::vector<Time>(order.actions().size())};
@@ -96,7 +96,7 @@ ExecutionTrace by_clock(const ActionDependencyGraph& order, Delays delays) {
   return trace;
 }
 
-// Makespan and sum of costs.
+// Returns the makespan and the sum of costs of an execution.
 std::pair<double, double> makespan_and_cost(const ActionDependencyGraph& order,
                                             const ExecutionTrace& trace) {
   Time makespan = 0;

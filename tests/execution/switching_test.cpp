@@ -30,7 +30,7 @@ std::optional<Plan> plan_of(const Instance& instance) {
   return solve(instance, options, limits).plan;
 }
 
-// Up to ten robots in a small hall with pillars.
+// Returns an instance with up to ten robots in a small hall with pillars.
 Instance dense_instance(std::uint64_t seed) {
   Random random(seed);
   const int width = 8;
@@ -45,7 +45,7 @@ Instance dense_instance(std::uint64_t seed) {
       const Cell goal = random.below(grid.cell_count());
       builder.add_agent(fmt::format("r{}", robots), grid.position(start), grid.position(goal));
       ++robots;
-    } catch (const InstanceError&) {  // taken, or blocked
+    } catch (const InstanceError&) {  // occupied or blocked
     }
   }
   return std::move(builder).build();
@@ -66,7 +66,8 @@ Cost cost_of(const ActionDependencyGraph& order, const ExecutionTrace& trace) {
   return cost;
 }
 
-// By the plan robot 0 crosses the path of robot 1 first, but it is delayed before the crossing.
+// In the plan robot 0 crosses the path of robot 1 first, but robot 0 is delayed before the
+// crossing.
 TEST(Switching, RobotThatWaitsForADelayedOneGoesFirst) {
   const Instance instance =
       instance_of({"@@@.@@@", "@@@.@@@", ".......", "@@@.@@@", "@@@.@@@"},
@@ -93,8 +94,8 @@ TEST(Switching, RobotThatWaitsForADelayedOneGoesFirst) {
   EXPECT_EQ(switched.trace.finish(order, 0), 55);
 }
 
-// In a corridor that two robots must pass, their order cannot be switched once one of them is in
-// it.
+// For example, the order of two robots in a corridor must not be switched once one of them is
+// inside.
 TEST(Switching, CausesNoDeadlock) {
   std::int64_t switches = 0;
   Cost fixed = 0;

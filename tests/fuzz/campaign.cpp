@@ -20,7 +20,8 @@ std::string problem_of(const TinyInstance& instance) {
   return mg == std::ssize(instance.agents) ? "MG" : "mixed";
 }
 
-// Name of the kind of world: grid or roads, with turning agents or tasks with a duration.
+// Returns the name of the kind of world: grid or roads, with turning agents or tasks with a
+// duration.
 std::string world_of(const TinyInstance& instance) {
   std::string world = instance.roads.empty() ? "grid" : "roads";
   const auto agent_with = [&](auto what) { return std::ranges::any_of(instance.agents, what); };
@@ -113,7 +114,7 @@ Failure explain(const FuzzCase& fuzz_case, CaseResult first, const Solver& solve
   };
   Failure failure{fuzz_case, shrink(fuzz_case, fails, limits), {}};
   failure.result = run_case(failure.shrunk, solver, patience);
-  if (failure.result.complaints.empty()) {  // with several threads a run need not be repeatable
+  if (failure.result.complaints.empty()) {  // runs with several threads are not always repeatable
     failure.result = std::move(first);
     failure.result.complaints.push_back("(in the first run only; a repetition did not fail)");
   }

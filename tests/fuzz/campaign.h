@@ -19,22 +19,22 @@ struct Tally {
   std::int64_t failed = 0;
   std::int64_t too_large = 0;   // skipped: too many joint states for the oracle
   std::int64_t infeasible = 0;  // no plan exists
-  std::int64_t unstopped = 0;   // a plan exists, and the case has no limit but the patience
-  std::int64_t unsolved = 0;    // those of `unstopped` that did not finish within the patience
+  std::int64_t unstopped = 0;   // a plan exists, and the run has no limit except the patience
+  std::int64_t unsolved = 0;    // cases of `unstopped` that were not solved within the patience
   std::map<std::string, std::int64_t> by_status;
   std::map<std::string, std::int64_t> by_omega;
   std::map<std::string, std::int64_t> by_kind;   // CTS, MG, mixed
   std::map<std::string, std::int64_t> by_world;  // grid, roads; turning, work
-  std::map<std::string, std::int64_t> by_trait;  // further properties; a case may have several
+  std::map<std::string, std::int64_t> by_trait;  // further properties; a case can have several
 
   void add(const FuzzCase& fuzz_case, const CaseResult& result);
-  // Percentage of `unstopped` that is `unsolved`. A slow run is not a wrong claim, but the
-  // search often makes no progress in it.
+  // Percentage of `unstopped` cases that are `unsolved`. A slow run makes no wrong claim, but many
+  // slow runs indicate that the search makes no progress.
   double unsolved_percent() const;
   std::string summary() const;
 };
 
-// A failing case, and the smallest case found that fails too.
+// A failing case, and the smallest failing case to which it was shrunk.
 struct Failure {
   FuzzCase original;
   FuzzCase shrunk;
@@ -45,16 +45,18 @@ struct Failure {
 
 struct Campaign {
   std::int64_t count = 0;  // number of cases
-  std::uint64_t seed = 0;  // of the first case; each next case has the next seed
+  std::uint64_t seed = 0;  // of the first case; it increases by 1 for each further case
   std::optional<double> seconds = std::nullopt;    // time limit; nullopt: none
   std::chrono::milliseconds patience = kPatience;  // see run_case()
-  std::filesystem::path trace = {};  // file for the current case, in case of a crash; empty: none
+  // File to which each case is written before it runs, in case of a crash; empty: none.
+  std::filesystem::path trace = {};
 };
 
-// Runs cases until the first failure, and shrinks it. Returns nullopt if no case failed.
+// Runs cases until one fails, and shrinks that case. Returns nullopt if no case failed within the
+// limits.
 std::optional<Failure> run_campaign(const Campaign& campaign, const Solver& solver, Tally& tally);
 
-// Shrinks a failing case.
+// Shrinks a failing case, for at most a fixed time. `first`: its result.
 Failure explain(const FuzzCase& fuzz_case, CaseResult first, const Solver& solver,
                 std::chrono::milliseconds patience = kPatience);
 

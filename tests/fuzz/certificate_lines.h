@@ -8,7 +8,8 @@
 
 namespace grove::detail::fuzz {
 
-// Returns the lines without line ends. Throws std::runtime_error if `file` is not valid zstd data.
+// Returns the lines of `file` without line ends. Throws std::runtime_error if it is not valid zstd
+// data.
 std::vector<std::string> certificate_lines(const std::filesystem::path& file);
 
 }  // namespace grove::detail::fuzz

@@ -8,9 +8,9 @@
 
 namespace grove::detail::fuzz {
 
-// Returns `lines` with one to four random mutations: a number or keyword changed, a line removed,
-// duplicated or swapped, or a subtree replaced by a leaf. Often the theorem claims more, as in a
-// forged certificate.
+// Returns `lines` with one to four random mutations: a number or keyword is changed, a line is
+// removed, duplicated or swapped, or a subtree is replaced by a leaf. Often the theorem is also
+// changed to claim a higher bound, as in a forged certificate.
 std::vector<std::string> mutated(std::vector<std::string> lines, std::uint64_t seed);
 
 }  // namespace grove::detail::fuzz

@@ -76,7 +76,7 @@ class Claims {
            "status {}, but there is no plan", to_string(solution_.status));
   }
 
-  // A run must reach the requested status unless a limit was reached or omega = inf.
+  // A run must reach the requested tolerance unless it was stopped by a limit or omega = inf.
   void examine_effort() {
     if (stopped_ || omega_.is_infinite()) return;
     expect(solution_.status != Status::kUnknown && solution_.status != Status::kFeasible,

@@ -10,9 +10,9 @@
 
 namespace grove::detail::fuzz {
 
-// Returns all complaints about `solution`: false claims, and missing results; empty if there are
-// none. `truth` must not be kTooLarge. `omega` is the tolerance that was requested. `stopped`: a
-// limit was reached before the end.
+// Returns all complaints about `solution`: false claims and missing results; empty if there are
+// none. `truth` must not be kTooLarge. `omega` is the requested tolerance. `stopped`: a limit
+// stopped the run.
 std::vector<std::string> false_claims(const Instance& instance, const oracle::Answer& truth,
                                       Omega omega, const Solution& solution, bool stopped);
 

@@ -10,7 +10,7 @@
 namespace grove::detail::fuzz {
 namespace {
 
-constexpr double kAtOnce = 1e6;  // ratio of work: as much as it takes, before all other work
+constexpr double kAtOnce = 1e6;  // effort ratio: all other components wait
 constexpr std::int64_t kToTheEnd = 1'000'000'000'000;
 
 std::vector<std::string> open_board(Random& random) {
@@ -36,7 +36,8 @@ std::vector<std::string> corridor_board(Random& random) {
   return rows;
 }
 
-// Random starts and goals. Some agents have a task or two; agents without a goal have two.
+// Random starts and goals. Some agents with a goal have one or two tasks; agents without a goal
+// have two.
 TinyInstance roomy_instance(std::uint64_t seed) {
   Random random(seed ^ 0x4007);
   TinyInstance instance;

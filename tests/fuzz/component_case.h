@@ -16,7 +16,7 @@ enum class Part : std::uint8_t {
   kPairs,     // kTree, and WDG weights of pairs and groups, by joint MDDs and by splits
   kGroups,    // kPairs, and EPEA* for pairs and groups, from the start
   kJoint,     // EPEA* for all agents
-  kPrices,    // the Lagrangian bound at the root; the tree stops soon
+  kPrices,    // the Lagrangian bound at the root; the tree search stops early
   kSequences  // one tree for each joint sequence
 };
 
@@ -34,11 +34,11 @@ inline constexpr std::array kParts = {
     NamedPart{Part::kSequences, "sequences"},
 };
 
-// Returns the case of `seed`. Half of the cases are on larger boards than those of random_case(),
-// with up to four agents.
+// Returns the case of `seed`. Half of the cases use larger boards than random_case() does, with up
+// to four agents.
 FuzzCase component_case(Part part, std::uint64_t seed);
 
-// Returns a valid plan that costs one step more than `plan`: the start plan that the search has to
+// Returns a valid plan that costs one step more than `plan`, as a start plan that the search has to
 // improve. Returns `plan` itself if no agent can wait.
 Plan higher_cost_plan(const Instance& instance, const Plan& plan);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // grove-fuzz: compares the solver with the oracle on random tiny instances. Exit codes: 0 no
-// failure, 1 the solver is wrong, 2 bad usage.
+// failure; 1 a wrong answer, or more slow runs than allowed; 2 bad usage.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -29,7 +29,8 @@ FuzzCase read_case(const std::string& path) {
   return FuzzCase::parse(text.str());
 }
 
-// Solves `instance` with Grove and throws if the search loses the optimal plan of `truth`.
+// Solves `instance` with Grove. Throws std::logic_error if the search loses the optimal plan of
+// `truth`.
 Solution solve_watched(const Instance& instance, const SolveOptions& options, const Limits& limits,
                        const oracle::Answer& truth) {
   if (!truth.plan) return solve(instance, options, limits);

@@ -93,7 +93,7 @@ void read_option(const std::string& line, FuzzCase& fuzz_case) {
     throw std::invalid_argument(fmt::format("did not expect the option '{}'", key));
 }
 
-// All techniques, none, all but one, only one, or a random set.
+// Returns all techniques, none, all except one, only one, or a random set.
 Techniques random_techniques(Random& random) {
   const Technique one = kTechniques[random.below(static_cast<int>(kTechniques.size()))].technique;
   switch (random.below(6)) {
@@ -120,22 +120,22 @@ Omega random_omega(Random& random) {
   return Omega::parse(kChoices[random.below(std::size(kChoices))]);
 }
 
-// Mostly unlimited; otherwise so little that nodes must be evicted.
+// Mostly unlimited; otherwise so small that nodes must be evicted.
 std::size_t random_node_memory(Random& random) {
   constexpr std::size_t kUnlimited = SolveOptions::kUnlimited;
   return random.pick<std::size_t>({kUnlimited, kUnlimited, kUnlimited, 1'000, 3'000, 10'000});
 }
 
 // Mostly the default; otherwise a few tunables are at a bound of their range, or far from their
-// default, but not so far that a run exceeds the time limit of the fuzzer.
+// default, but not so far that the run would exceed the fuzzer's time limit.
 Tuning random_tuning(Random& random) {
   Tuning tuning;
-  // Otherwise tiny instances are solved before the joint search starts.
+  // By default tiny instances are solved before the joint search starts.
   if (random.percent(20)) {
     tuning.joint_start_work = 0;
     tuning.joint_step_work = random.pick<std::int64_t>({1, 20, 4000});
   }
-  // Otherwise the Lagrangian bound does not run with so few agents.
+  // By default the Lagrangian bound does not run with so few agents.
   if (random.percent(30)) {
     tuning.lagrangian_min_agents = 1;
     tuning.lagrangian_start_work = 0;
@@ -225,7 +225,7 @@ FuzzCase random_case(std::uint64_t seed) {
   fuzz_case.options.node_memory = random_node_memory(random);
   fuzz_case.options.threads = random.pick<int>({1, 1, 1, 1, 1, 2, 2, 3, 4});
   fuzz_case.options.deterministic = random.below(8) == 0;
-  // The problems that the published low levels support.
+  // Only for problems that the published low levels support.
   if (fuzz_case.options.policy != Policy::kFixed && random.below(6) == 0 && on_plain_grid)
     fuzz_case.options.low_level = random.pick<LowLevel>(
         {LowLevel::kVisitedSets, LowLevel::kSingleLegs, LowLevel::kTimeIntervalForest});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A fuzz case: an instance, and the options to solve it with.
+// A fuzz case: an instance and the options for solving it.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace grove::detail::fuzz {
 
-// Limit that a run is subject to.
+// Limit imposed on a run.
 enum class ImposedLimit : std::uint8_t {
   kNothing,    // only a long deadline
-  kExpired,    // the deadline has passed when the run begins
-  kSoon,       // the deadline comes within a millisecond
-  kMemory,     // the memory limit is hardly above the memory in use
-  kInterrupt,  // the interrupt flag is set when the run begins
+  kExpired,    // the deadline has passed before the run starts
+  kSoon,       // the deadline is one millisecond after the start
+  kMemory,     // the memory limit is only slightly above the memory in use
+  kInterrupt,  // the interrupt flag is set before the run starts
 };
 
 // As text: a TinyInstance, followed by these lines, of which any may be missing:
@@ -42,7 +42,7 @@ struct FuzzCase {
   ImposedLimit strike = ImposedLimit::kNothing;
 
   std::string to_text() const;
-  // Throws std::invalid_argument.
+  // Throws std::invalid_argument if `text` is not a valid case.
   static FuzzCase parse(std::string_view text);
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// grove-fuzz-certificates: certifies searches of tiny instances of all kinds. It tests that the
-// checker verifies each certificate and that the verified bound is true, and that the checker never
-// accepts a false claim of a mutated certificate. The checker is another program (--verify). Exit
-// codes: 0 no failure, 1 failure, 2 bad usage.
+// grove-fuzz-certificates: certifies searches on tiny instances of all kinds. It tests that the
+// checker verifies every certificate, that the verified bound is true, and that the checker never
+// accepts a false claim in a mutated certificate. The checker is a separate program (--verify).
+// Exit codes: 0 no failure, 1 failure, 2 bad usage.
 #include <fmt/format.h>
 #include <sys/wait.h>
 
@@ -91,7 +91,7 @@ Verdict verdict_of(const Arguments& a, const fs::path& instance, const fs::path&
   return verdict;
 }
 
-// Interrupts a run at its second node: by then the Lagrangian bound has its final value.
+// Interrupts a run at its second node, when the Lagrangian bound has its final value.
 class StopsAtSecondNode : public RunObserver {
  public:
   explicit StopsAtSecondNode(Limits& limits) { limits.watch_interrupt(&interrupt_); }
@@ -145,7 +145,7 @@ class Trial {
   }
 
   bool is_well() const { return wrong_ == 0; }
-  // For mutants.py.
+  // Read by mutants.py.
   std::string json() const {
     return fmt::format(
         "{{\"cases\": {}, \"false\": {}, \"refused\": {}, \"refused_false\": {}, \"believed\": {}, "
@@ -164,8 +164,8 @@ class Trial {
   }
 
  private:
-  // Without this, incumbents or the joint search end most runs before the tree has proven much, and
-  // the Lagrangian bound needs more agents.
+  // Without this, incumbents or the joint search end most runs before the tree search has proven
+  // much, and the Lagrangian bound does not run because there are too few agents.
   void prefer_tree_and_lagrangian(std::uint64_t seed) {
     SolveOptions& options = case_.options;
     options.omega = Omega::from_double(0);
@@ -189,7 +189,7 @@ class Trial {
   }
 
   Solution solve(const Instance& instance) const {
-    fs::remove(part_);  // the previous case's
+    fs::remove(part_);  // left by the previous case
     ProofRecorder recorder(part_);
     SolveOptions options = case_.options;
     options.proof = &recorder;

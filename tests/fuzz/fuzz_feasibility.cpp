@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grove-fuzz-feasibility: tests that pebble_motion_infeasibility() recognises exactly the dense
-// instances without a plan. Exit codes: 0 no failure, 1 a wrong answer, 2 bad usage.
+// grove-fuzz-feasibility: tests that pebble_motion_infeasibility() finds a reason for exactly those
+// dense instances that have no plan. Exit codes: 0 no failure, 1 a wrong answer, 2 bad usage.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -29,7 +29,7 @@ struct Arguments {
   std::uint64_t seed = 1;
 };
 
-// Tiny dense instances, compared with the set of all reachable configurations.
+// Tests tiny dense instances against the set of all reachable configurations.
 class TinyInstances {
  public:
   void test_seed(std::uint64_t seed) {
@@ -69,7 +69,7 @@ class TinyInstances {
       std::swap(places[i - 1], places[random.below(i)]);
     return places;
   }
-  // Swaps the places of two agents, or of none.
+  // Swaps the places of agent 0 and a random agent, possibly agent 0 itself.
   static Places swapped(Places places, Random& random) {
     std::swap(places[0], places[random.below(places.size())]);
     return places;
@@ -82,7 +82,7 @@ class TinyInstances {
     builder.add_task("t", task, std::vector<std::string>{instance.agent(agent).id});
     return std::move(builder).build();
   }
-  // Asks for every agent and place whether the agent can visit the place and return.
+  // Tests for every agent and place whether the agent can visit the place and return.
   void ask_for_places(const Instance& instance, const Places& starts, const std::set<Places>& all) {
     const World& world = instance.world();
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)
@@ -118,7 +118,7 @@ class TinyInstances {
   std::int64_t asked_ = 0, impossible_ = 0;
 };
 
-// Large instances for which the answer is known by construction.
+// Tests large instances for which the answer is known by construction.
 class KnownInstances {
  public:
   void test_seed(std::uint64_t seed) {

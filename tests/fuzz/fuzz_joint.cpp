@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// grove-fuzz-joint: tests that every small puzzle is solved within the time limit and that the
-// answer agrees with the oracle. Exit codes: 0 no failure, 1 a wrong answer or more unsolved
-// instances than allowed, 2 bad usage.
+// grove-fuzz-joint: tests that small puzzles are solved within the time limit and that the answers
+// agree with the oracle. Exit codes: 0 no failure, 1 a wrong answer or more unsolved puzzles than
+// allowed, 2 bad usage.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -43,8 +43,8 @@ struct Tally {
   std::vector<double> cpu_seconds = {};
 };
 
-// Returns the error in an answer, or an empty string. Counts in `tally` whether the oracle had an
-// answer too.
+// Returns the error in an answer, or an empty string. Records in `tally` whether the oracle found
+// an answer, too.
 std::string complaint(const Instance& instance, const Solution& solution, std::size_t states,
                       Tally& tally) {
   if (solution.plan && !check(instance, solution).empty()) return "the plan is invalid";

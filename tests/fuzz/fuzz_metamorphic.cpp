@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// grove-fuzz-metamorphic: metamorphic tests of the search. They need no oracle, so instances have
-// up to a dozen agents, on maps of difficult shapes.
+// grove-fuzz-metamorphic: metamorphic tests of the search. They need no oracle, so the instances
+// have up to a dozen agents, on maps with difficult shapes.
 //
-// *Property.* Let P be a valid plan of an instance, of any cost. A node whose constraints P
-// satisfies never has a bound above the cost of P. If such a node is expanded with a cutoff above
-// the cost of P, then a child holds P, or the expansion yields a plan that costs at most as much as
-// P.
+// *Property.* Let P be a valid plan of an instance, of any cost. The bound of a node whose
+// constraints P satisfies never exceeds the cost of P. If such a node is expanded with a cutoff
+// above the cost of P, then P satisfies the constraints of a child, or the expansion yields a plan
+// that costs at most as much as P.
 //
-// `--mode descend` follows many valid plans down the trees. Cutoffs rise and fall, and one expander
-// with one cache serves all descents.
+// `--mode descend` follows many valid plans down the trees. The cutoffs rise and fall, and all
+// descents share one expander and its cache.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -100,7 +100,7 @@ Rows obstacles(int w, int h, int percent, Random& random) {
   return rows;
 }
 
-// A corridor with dead ends, bays, and loops that begin and end at one cell.
+// A corridor with dead ends, bays, and loops that start and end at one cell.
 Rows lollipops(int length, Random& random) {
   Rows rows = filled(length, 7, '@');
   for (int x = 0; x < length; ++x) rows[3][x] = '.';
@@ -236,7 +236,8 @@ TinyInstance make(std::uint64_t seed, bool tiny) {
   return instance;
 }
 
-// On a grid, or in any kind of world (roads, agents that turn, tasks with a duration).
+// Returns an instance on a grid or in any other kind of world (roads, turning agents, tasks with a
+// duration).
 TinyInstance draw(std::uint64_t seed, bool tiny, Random& random) {
   if (tiny && random.percent(30)) return random_instance(seed);
   if (tiny && random.percent(50)) return random_world(seed);
@@ -291,7 +292,8 @@ struct Counts {
                infeasible = 0, unsolved = 0, histories = 0, histories_differ = 0;
 };
 
-// Also expand with a new expander, and count the expansions with a different result.
+// If set, every fourth node of a descent is also expanded by a new expander, and differing results
+// are counted.
 bool compare_histories = false;
 
 [[noreturn]] void fail(const TinyInstance& tiny, const std::string& what, Techniques techniques,
@@ -303,7 +305,7 @@ bool compare_histories = false;
   throw std::logic_error(text);
 }
 
-// Valid plans of the instance, found on its map and on maps with some more blocked cells.
+// Returns valid plans of the instance, found on its map and on maps with a few more blocked cells.
 std::vector<Plan> some_plans(const TinyInstance& tiny, const Instance& instance, Random& random,
                              int wanted, double seconds) {
   std::vector<Plan> plans;
@@ -351,7 +353,7 @@ void descend(const TinyInstance& tiny, const Instance& instance, std::uint64_t s
   const auto expander_seed = static_cast<std::uint64_t>(random.below(100));
   Expander expander(problem, stops, {techniques, expander_seed});
   const NodePtr root = forest.next_root();
-  std::vector<NodePtr> reached{root};  // start nodes of descents, whether they hold a plan or not
+  std::vector<NodePtr> reached{root};  // start nodes of descents; not all hold a plan
   const auto end =
       Limits::Clock::now() + std::chrono::milliseconds(static_cast<int>(seconds * 1000));
   for (int round = 0; round < 40 && Limits::Clock::now() < end; ++round) {
@@ -412,7 +414,7 @@ void descend(const TinyInstance& tiny, const Instance& instance, std::uint64_t s
       if (cutoff <= plan.cost) {
         ++counts.steps_loose;
         for (const NodePtr& child : expansion.children) reached.push_back(child);
-        continue;  // the same node again, with another cutoff
+        continue;  // expands the same node again with a different cutoff
       }
       if (expansion.plan) {
         if (expansion.plan->cost > plan.cost)
@@ -544,7 +546,7 @@ void agree(const TinyInstance& tiny, const Instance& instance, std::uint64_t see
     }
     const TinyInstance other = k >= 2 && random.percent(60) ? transformed(tiny, random) : tiny;
     const Instance of = other.build();
-    // Start with the first plan, or with one that may cost more.
+    // Uses the first plan, or another plan that may cost more, as the start plan.
     if (other == tiny && first.plan && k >= 2 && random.percent(60))
       options.start = random.percent(40) ? *first.plan
                                          : a_plan_of(some_plans(tiny, instance, random, 3, 0.2),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests of the fuzzer: it must catch every kind of false claim, and shrink the case.
+// Tests of the fuzzer: it must detect every kind of false claim and shrink the failing case.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// A solver that returns the answer of the oracle.
+// A correct solver, which returns the answer of the oracle.
 Solution honest(const Instance&, const SolveOptions& options, const Limits& limits,
                 const oracle::Answer& truth) {
   Solution solution;
@@ -31,7 +31,7 @@ Solution honest(const Instance&, const SolveOptions& options, const Limits& limi
   return solution;
 }
 
-// A solver that returns the answer of the oracle as changed by `twist`.
+// Returns a solver that applies `twist` to the answer of the oracle.
 Solver false_solver(const std::function<void(const Instance&, Solution&)>& twist) {
   return [twist](const Instance& instance, const SolveOptions& options, const Limits& limits,
                  const oracle::Answer& truth) {
@@ -49,7 +49,7 @@ constexpr const char* kCorner = "map\n...\n...\nagents\n0,0 -> 2,0\n2,0 -> 0,0\n
 constexpr const char* kSwap = "map\n...\nagents\n0,0 -> 2,0\n2,0 -> 0,0\n";
 constexpr const char* kFourSteps = "map\n.....\nagents\n0,0 -> 4,0\n";
 
-// Makes the plan one step longer: the agent waits at its start first.
+// Makes the plan one step longer by an initial wait of agent 0.
 void delay(Solution& solution) {
   AgentPlan& agent = solution.plan->agents[0];
   agent.path.insert(agent.path.begin(), agent.path.front());
@@ -81,7 +81,7 @@ TEST(Fuzzer, CatchesWrongCost) {
 TEST(Fuzzer, CatchesBoundAboveOptimum) {
   EXPECT_THAT(complaints(kCorner, false_solver([](auto&, Solution& s) { ++s.lower_bound; })),
               Contains(HasSubstr("exceeds the optimum")));
-  // Also without a plan, from a run that was stopped.
+  // A false bound is detected even if a stopped run reports it without a plan.
   EXPECT_THAT(complaints("map\n..\nagents\n0,0 -> 1,0\noptions\nstrike expired\n",
                          false_solver([](auto&, Solution& s) { s.lower_bound = 2; })),
               Contains(HasSubstr("exceeds the optimum")));
@@ -101,7 +101,7 @@ TEST(Fuzzer, CatchesFalseOptimality) {
     ++s.lower_bound;
   });
   EXPECT_THAT(complaints(kFourSteps, solver), Contains(HasSubstr("optimal with cost 5")));
-  // Without the matching bound, the solution contradicts itself.
+  // The claimed bound no longer matches the plan, so the solution contradicts itself.
   EXPECT_THAT(complaints(kFourSteps, false_solver([](auto&, Solution& s) { delay(s); })),
               Contains(HasSubstr("status optimal where")));
 }
@@ -184,8 +184,8 @@ TEST(Fuzzer, CountsRunsThatReachTheTimeLimit) {
 }
 
 TEST(Shrink, FindsMinimalCaseOfFalseClaim) {
-  // Wrong if an MG agent has a task on another agent's destination (and a second task, to finish
-  // on).
+  // This solver is wrong if an MG agent has a task on another agent's destination (and a second
+  // task, on which it can finish).
   const Solver solver = false_solver([](const Instance& instance, Solution& s) {
     for (const Task& task : instance.tasks())
       for (const Agent& agent : instance.agents())

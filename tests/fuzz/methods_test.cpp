@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compares methods with the oracle on tiny instances: the exact ones must find the optimum, and the
+// Compares solution methods with the oracle on tiny instances. Exact methods must find the optimum;
 // adaptations must not claim more than they prove. GROVE_FUZZ_FACTOR multiplies the number of
 // instances.
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@
 namespace grove::detail::fuzz {
 namespace methods_test {
 
-// A random instance in which every agent with a task may end on any of its tasks.
+// Returns a random instance in which every agent with a task can end on any of its tasks.
 Instance mg_instance(std::uint64_t seed) {
   TinyInstance tiny = random_instance(seed);
   for (std::size_t agent = 0; agent < tiny.agents.size(); ++agent)
@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(, ExactMethods,
                            return name;
                          });
 
-// Cost of one agent, ignoring the others.
+// Returns the cost of one agent, ignoring all other agents.
 Cost single_agent_cost(const Instance& instance, AgentIndex agent, std::optional<Cell> goal,
                        TaskIndex end) {
   const Grid& grid = instance.grid();
@@ -98,7 +98,8 @@ Cost single_agent_cost(const Instance& instance, AgentIndex agent, std::optional
   return answer.plan ? answer.plan->cost : kInfiniteCost;
 }
 
-// Minimum cost over all choices of distinct destinations for `agent` and all later agents.
+// Returns the minimum cost over all choices of distinct destinations for `agent` and all later
+// agents.
 Cost best_choice(const Instance& instance, AgentIndex agent, std::vector<Cell>& taken) {
   if (agent == instance.agent_count()) return 0;
   if (const auto goal = instance.agent(agent).goal)
@@ -120,7 +121,7 @@ Cost best_choice(const Instance& instance, AgentIndex agent, std::vector<Cell>& 
 
 TEST(Destinations, AreDistinctAndCheapest) {
   int chosen = 0;
-  int raised = 0;  // instances in which distinctness raises the cost
+  int raised = 0;  // instances in which distinct destinations cost more
   const std::uint64_t seeds = testing::fuzz_rounds(80);
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -183,7 +184,7 @@ class CheckedEvents : public RunObserver {
     }
   }
   bool ended() const { return ended_; }
-  // True if the solution agrees with the last reported plan and bound.
+  // Returns whether the solution agrees with the last reported plan and bound.
   bool is_result(const Solution& solution) const {
     return solution.lower_bound >= bound_ &&
            (solution.plan ? solution.plan->cost : kInfiniteCost) == best_;
@@ -206,8 +207,8 @@ struct Adaptation {
 
 class Adaptations : public ::testing::TestWithParam<Adaptation> {};
 
-// With the destinations that B chooses, the bound is 6: a1 must visit their shared task before a0
-// rests there, or rest there itself.
+// With the destinations that method B chooses, every plan costs at least 6: a1 must visit the
+// shared task before a0 rests on it, or must rest on it itself. The optimum is 4.
 Instance worse_with_destinations() {
   return testing::instance_of({"...."}, {{{0, 0}, std::nullopt, {{0, 0}, {1, 0}}},
                                          {{3, 0}, std::nullopt, {{1, 0}, {3, 0}}}});
@@ -263,10 +264,10 @@ INSTANTIATE_TEST_SUITE_P(, Adaptations,
                                            Adaptation{"Anytime", Method::kCtsCbsC, true}),
                          [](const auto& all) { return std::string(all.param.name); });
 
-// On a line the agents cannot change places, so one agent cannot end on its only task, which lies
-// beyond all tasks of the other. No constraint tree search proves this: A is stopped by the time
-// limit. Then B finds that its destinations allow no plan, which proves nothing about other
-// destinations.
+// The agents cannot change places on a line, so agent 1 cannot end on its only task, which lies
+// beyond all tasks of agent 0. No constraint-tree search proves this, so method A runs until the
+// time limit. Method B then finds that its chosen destinations allow no plan, which proves nothing
+// about other destinations.
 TEST(AdaptationC, ReportsStopReasonOfAIfBFindsNoPlan) {
   const Instance instance = testing::instance_of(
       {".@", "..", "@.", ".."},
@@ -287,7 +288,7 @@ TEST(AdaptationC, ReportsStopReasonOfAIfBFindsNoPlan) {
   }
 }
 
-// The plan of B is optimal for the destinations that B chooses.
+// The plan of method B is optimal for the destinations that B chooses.
 TEST(AdaptationB, IsOptimalForItsDestinations) {
   int compared = 0;
   const std::uint64_t seeds = testing::fuzz_rounds(60);
@@ -309,7 +310,7 @@ TEST(AdaptationB, IsOptimalForItsDestinations) {
   EXPECT_GT(compared, 20);
 }
 
-// A dense instance that hardly any search solves in a tenth of a second.
+// Returns a dense instance that hardly any search solves within a tenth of a second.
 Instance dense_instance(unsigned seed) {
   constexpr int kSide = 8;
   constexpr int kAgents = 16;
@@ -326,7 +327,7 @@ Instance dense_instance(unsigned seed) {
   return testing::instance_of(std::vector<std::string>(kSide, std::string(kSide, '.')), agents);
 }
 
-// Best plan and bound reported by the searches.
+// Stores the best plan and bound that the search reports.
 class RecordedEvents : public RunObserver {
  public:
   void on_incumbent(const Plan& plan, PlanSource, const Progress& progress) override {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Why is a search wrong that loses the plan, although other plans may have the same cost? Pruning
-// by bound is left to the global bounds, which never prune below the cost of the incumbent. All
-// other operations (splitting a conflict, discarding a child, choosing the trees) must not lose any
-// plan.
+// Why is losing the plan an error, although other plans can have the same cost? Only the global
+// bounds prune by bound, and they never prune nodes whose bound is below the cost of the incumbent.
+// All other operations (splitting a conflict, discarding a child, choosing the trees) must not lose
+// any plan.
 #include "tests/fuzz/planted_optimum.h"
 
 #include <fmt/format.h>
@@ -21,8 +21,8 @@ bool may_be_next(const SequenceClass& sequences, const Sequence& so_far, Stop st
   return so_far.size() > fixed || (sequences.forbidden_next >> stop & 1) == 0;
 }
 
-// Enumerates the sequences that a path realizes: each stop at its first visit after the previous
-// stop.
+// Enumerates the sequences that a path realizes, where each stop counts at its first visit after
+// the previous stop's visit.
 class RealizedSequences {
  public:
   RealizedSequences(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
@@ -104,7 +104,7 @@ void PlantedOptimum::on_root(const NodePtr& root) {
 
 void PlantedOptimum::on_expanded(const NodePtr& node, const Expansion& expansion, int) {
   if (holding_.erase(node.get()) == 0) return;
-  // A worker may have an incumbent of this cost before it is reported.
+  // A worker can use an incumbent of this cost before the run reports it.
   bool kept = expansion.cutoff <= optimum_.cost ||
               (expansion.plan && expansion.plan->cost <= optimum_.cost);
   for (const NodePtr& child : expansion.children) {
@@ -124,7 +124,7 @@ void PlantedOptimum::on_pruned(Cost bound) {
         fmt::format("nodes were pruned from {} on, but the optimum is {}", bound, optimum_.cost));
 }
 
-// A bound that was proven before the eviction stays valid.
+// A lower bound proven before the eviction stays valid.
 void PlantedOptimum::on_evicted(const NodePtr& node) {
   if (holding_.erase(node.get()) > 0)
     evicted_bound_ = std::min(evicted_bound_, std::max(node->bound(), claimed_));

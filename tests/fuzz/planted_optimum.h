@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks that a search never loses a given optimal plan (like the debug solutions of MIP solvers,
+// Checks that a search never loses a given optimal plan (like the debug solutions of MIP solvers
 // such as HiGHS).
 #pragma once
 
@@ -13,14 +13,15 @@
 
 namespace grove::detail::fuzz {
 
-// Follows the nodes that hold a given optimal plan: nodes whose tree allows the visit orders of the
-// plan and whose constraints the plan satisfies. From the first root that holds it, some live node
-// must hold it, whatever is branched, pruned or forbidden, until a plan of the same cost is found.
-// Neither these nodes nor the search as a whole may claim a bound above its cost. If the last of
-// these nodes is evicted, the search may not claim more than that node's bound until it restarts.
+// Follows the nodes that hold a given optimal plan, which are those whose tree allows the visit
+// orders of the plan and whose constraints the plan satisfies. From the first root that holds the
+// plan until a plan of the same cost is found, some live node must hold it, whatever the search
+// branches on or prunes. Neither these nodes nor the search as a whole may claim a bound above the
+// cost of the plan. If the last of these nodes is evicted, the search may not claim more than that
+// node's bound until it restarts.
 class PlantedOptimum : public RunObserver {
  public:
-  // `instance` must outlive this. `optimum` must be valid and cost-optimal.
+  // `instance` must outlive this object. `optimum` must be valid and cost-optimal.
   PlantedOptimum(const Instance& instance, Plan optimum);
 
   void on_event(RunEvent event, const Progress& progress) override;
@@ -31,11 +32,11 @@ class PlantedOptimum : public RunObserver {
   void on_pruned(Cost bound) override;
   void on_evicted(const NodePtr& node) override;
 
-  // Errors in the order in which they occurred; empty if there are none.
+  // The errors found so far, in order of occurrence.
   const std::vector<std::string>& complaints() const { return complaints_; }
   // Number of nodes so far that held the plan.
   std::size_t nodes_followed() const { return nodes_followed_; }
-  // True if `node` holds the plan.
+  // Returns whether `node` holds the plan.
   bool held_by(const Node& node) const;
 
  private:
@@ -43,20 +44,20 @@ class PlantedOptimum : public RunObserver {
 
   const Instance& instance_;
   const Plan optimum_;
-  std::vector<Path> paths_;  // as the search walks them
-  // Live nodes that hold the plan, by address, because the nodes must not outlive the search. Empty
-  // once a plan of the same cost is found: from then on the search may prune them.
+  std::vector<Path> paths_;  // as state sequences of the search
+  // Addresses of the live nodes that hold the plan; not owning pointers, because they would extend
+  // the lifetime of the nodes. Empty once a plan of the same cost is found, because the search may
+  // then prune these nodes.
   std::unordered_set<const Node*> holding_;
   bool found_ = false;
-  bool raised_outside_trees_ = false;   // the next rise of the bound comes from outside the tree
-  Cost claimed_ = 0;                    // the search's lower bound
+  bool raised_outside_trees_ = false;   // the next rise of the bound comes from outside the trees
+  Cost claimed_ = 0;                    // lower bound that the search last reported
   Cost evicted_bound_ = kInfiniteCost;  // least bound of evicted nodes that held the plan
   std::size_t nodes_followed_ = 0;
   std::vector<std::string> complaints_;
 };
 
-// True if `path` realizes a sequence of the class such that the path and this sequence satisfy the
-// constraints.
+// Returns whether `path` satisfies the constraints and realizes a sequence of the class.
 bool satisfies_all(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
                    std::span<const Constraint> constraints, const Path& path);
 

@@ -37,7 +37,7 @@ class PlantedInABay : public ::testing::Test {
   PlantedOptimum planted_{instance_, optimum_};
   const NodePtr root_ = forest_.next_root();
 
-  // The child of the root that holds the optimum.
+  // Returns the child that holds the optimum.
   NodePtr holder(const Expansion& expansion) const {
     for (const NodePtr& child : expansion.children)
       if (planted_.held_by(*child)) return child;
@@ -120,7 +120,7 @@ TEST(SatisfiesAll, DerivesVisitOrderFromPath) {
   const Instance instance =
       TinyInstance::parse("map\n....\nagents\n0,0 -> -\ntasks\n1,0: 0\n3,0: 0\n").build();
   const Path there{0, 1, 2, 3};
-  // Returning to rest on the first task makes it the last visit.
+  // The agent returns to rest on its first task, so that task is its last visit.
   const Path back{0, 1, 2, 3, 2, 1};
   EXPECT_TRUE(satisfies_all(instance, 0, SequenceClass({0}, 0), {}, there));
   EXPECT_FALSE(satisfies_all(instance, 0, SequenceClass({}, 1), {}, there));
@@ -130,7 +130,7 @@ TEST(SatisfiesAll, DerivesVisitOrderFromPath) {
   EXPECT_TRUE(satisfies_all(instance, 0, SequenceClass({}, 1), {}, back));
 }
 
-// Interrupts its search after `expansions` expansions: a limit that is the same on any machine.
+// Interrupts the search after `expansions` expansions, a limit that is the same on any machine.
 class InterruptingOptimum : public PlantedOptimum {
  public:
   InterruptingOptimum(const Instance& instance, Plan optimum, int expansions)
@@ -148,8 +148,8 @@ class InterruptingOptimum : public PlantedOptimum {
 };
 
 // Solves the cases of the first `seeds` seeds that have a plan, each with at most `expansions`
-// expansions and the options that `choose` derives from the options of the case. Calls `look` with
-// every solution and the planted optimum that was followed.
+// expansions and with the options that `choose` derives from the options of the case. Calls `look`
+// with every solution and the PlantedOptimum that observed the run.
 template <class Choose, class Look>
 void follow_optima(std::uint64_t seeds, int expansions, Choose choose, Look look) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
@@ -184,7 +184,7 @@ TEST(PlantedOptimum, SurvivesWholeSearches) {
   EXPECT_GT(followed, 300u);
 }
 
-// Memory for a few nodes, and plain CBS, so that nodes must be evicted.
+// Plain CBS with memory for a few nodes, so that nodes must be evicted.
 TEST(PlantedOptimum, SurvivesNodeEviction) {
   std::int64_t evicted = 0;
   std::int64_t restarts = 0;

@@ -12,7 +12,7 @@ class Random : public grove::detail::Random {
  public:
   using grove::detail::Random::Random;
 
-  // Returns an integer from `low` to `high`, both included.
+  // Returns an integer from `low` to `high`, both inclusive.
   int between(int low, int high) { return low + below(high - low + 1); }
   bool percent(int chance) { return below(100) < chance; }
 

@@ -20,7 +20,7 @@ namespace {
 constexpr int kMaxPlaces = 9;
 constexpr double kMaxArrangements = 20'000;
 
-// The vertices are the cells of one row.
+// Returns an instance whose vertices are the cells of one row.
 TinyInstance tiny_roads(Random& random) {
   TinyInstance crowd;
   const int vertices = random.between(3, kMaxPlaces - 1);
@@ -32,7 +32,7 @@ TinyInstance tiny_roads(Random& random) {
     places += steps - 1;
     crowd.roads.push_back({{a, 0}, {b, 0}, steps, false});
   };
-  const int bends = random.below(100);  // the higher, the more the tree is like a path
+  const int bends = random.below(100);  // the higher, the more the tree resembles a path
   for (int v = 1; v < vertices; ++v) add(random.percent(bends) ? v - 1 : random.below(v), v);
   for (int more = random.below(4); more > 0; --more) {
     const int a = random.below(vertices);
@@ -73,7 +73,7 @@ void shuffle_items(std::vector<Item>& items, Random& random) {
 
 // --- large instances ---
 
-// A board, with the data needed to make an instance on it infeasible.
+// A board, with the data for choosing a change that makes an instance on it infeasible.
 struct CrowdBoard {
   enum class Kind { kOpen, kCorridors, kTree, kRing, kRooms, kTail, kTriangles };
   Kind kind;
@@ -136,7 +136,7 @@ CrowdBoard two_rooms(int places) {
   return on_grid(CrowdBoard::Kind::kRooms, rows, first);
 }
 
-// A room with a dead end behind it.
+// A room with a dead-end corridor, the tail.
 CrowdBoard room_with_tail(int places, int tail) {
   const int side = std::max(3, static_cast<int>(std::sqrt(std::max(9, places - tail))));
   auto rows = wall(side + tail, side);
@@ -149,7 +149,7 @@ CrowdBoard room_with_tail(int places, int tail) {
   return on_grid(CrowdBoard::Kind::kTail, rows, marked);
 }
 
-// Grows cell by cell; a cell that closes a ring is rarely added.
+// Grows the board cell by cell; a cell that closes a ring is rarely added.
 CrowdBoard corridor_board(int places, Random& random) {
   const int side = static_cast<int>(2 * std::sqrt(places)) + 3;
   auto rows = wall(side, side);
@@ -180,7 +180,7 @@ CrowdBoard ring_board(int places) {
   return on_roads(CrowdBoard::Kind::kRing, places, joined);
 }
 
-// Each triangle shares a corner with an earlier triangle.
+// Every triangle after the first shares a corner with an earlier triangle.
 CrowdBoard triangle_board(int places, Random& random) {
   std::vector<std::pair<int, int>> joined;
   int vertices = 1;
@@ -204,7 +204,7 @@ CrowdBoard with_places(CrowdBoard board) {
   return board;
 }
 
-// Moves agents at random without collisions.
+// Moves agents at random without collisions, starting from random places.
 class Stroll {
  public:
   Stroll(const CrowdBoard& board, int agents, bool may_follow, Random& random)
@@ -230,8 +230,8 @@ class Stroll {
     where_[agent] = place;
     on_[place] = agent;
   }
-  // Moves an agent from a neighbouring place to `free`, and so on: the free place makes a random
-  // walk.
+  // Repeatedly moves an agent from a neighbouring place to `free`, so that the free place makes a
+  // random walk.
   void fill(Place& free) {
     Place last = kNoPlace;
     for (int i = random_.between(1, 30); i > 0; --i) {
@@ -264,12 +264,12 @@ class Stroll {
   const CrowdBoard& board_;
   const bool may_follow_;
   Random& random_;
-  std::vector<int> on_;  // by place
+  std::vector<int> on_;  // agent by place; -1: none
   std::vector<Place> where_;
   std::vector<Place> free_;
 };
 
-// Two agents whose goals are swapped, to make the instance infeasible.
+// Two agents; swapping their goals makes the instance infeasible.
 using Pair = std::pair<int, int>;
 
 class CrowdMaker {
@@ -324,13 +324,16 @@ class CrowdMaker {
     }
   }
 
-  // Returns agents whose swapped goals leave no plan:
-  // - On a tree with at most one free place, the configuration follows from the free place.
-  // - On a ring no agent can pass another, nor deeper in a tail than there are free places.
-  // - With one free place, which is the same at the end, each agent moves an even number of steps
-  //   on a grid, and so do all together: they end in an even permutation. The same holds for
-  //   triangles without a free place.
-  // - No agent can leave a full room.
+  // Returns two agents whose swapped goals leave no plan, or nullopt if there are none. The reason
+  // depends on the kind of board:
+  // - On a tree with at most one free place, the free place determines the whole configuration.
+  // - On a ring no agent can pass another. In a tail, agents cannot change their order if they have
+  //   more places of the tail in front of them than there are free places.
+  // - On a grid with one free place and without following, each step exchanges an agent and the
+  //   free place. Two reachable configurations with the same free place differ by an even number of
+  //   steps, hence by an even permutation; swapped goals would be an odd one. Triangles without a
+  //   free place also allow only even permutations.
+  // - No agent can leave or enter a full room.
   std::optional<Pair> pair_to_swap(const std::vector<Place>& starts) {
     const auto agents = static_cast<int>(starts.size());
     const Pair any{0, random_.between(1, agents - 1)};
@@ -414,7 +417,7 @@ TinyInstance tiny_crowd(std::uint64_t seed) {
                           .goal = {}};
     crowd.agents.push_back(a);
   }
-  // Agents for which no cell is left start on the roads.
+  // Agents without a cell start on the roads.
   int agent = static_cast<int>(cells.size());
   for (int road = 0; road < static_cast<int>(crowd.roads.size()); ++road)
     for (Time along = 1; along < crowd.roads[road].steps && agent < agents; ++along, ++agent) {

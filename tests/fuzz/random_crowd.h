@@ -9,19 +9,19 @@
 
 namespace grove::detail::fuzz {
 
-// Returns an instance of agents and their starts only, on up to nine places of all shapes, grids
-// and roadmaps, also without a free place. The same seed gives the same instance.
+// Returns an instance that consists of agents and their starts, on up to nine places of any shape,
+// on a grid or a roadmap, possibly without a free place. The same seed gives the same instance.
 TinyInstance tiny_crowd(std::uint64_t seed);
 
-// An instance in which all agents have goals and the existence of a plan is known: its goals come
-// from a random plan, possibly changed in a way that provably leaves no plan.
+// An instance in which all agents have goals and it is known whether a plan exists. The goals come
+// from a random plan and are possibly changed in a way that provably leaves no plan.
 struct KnownCrowd {
   Instance instance;
   bool has_plan;
   std::string board;
 };
 
-// Returns an instance of 10 to 2,000 agents. The same seed gives the same instance.
+// Returns an instance with 10 to 2,000 agents. The same seed gives the same instance.
 KnownCrowd known_crowd(std::uint64_t seed);
 
 }  // namespace grove::detail::fuzz

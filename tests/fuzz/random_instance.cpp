@@ -10,8 +10,8 @@
 namespace grove::detail::fuzz {
 namespace {
 
-// Approximate limit on the joint moves of an instance: keeps the oracle fast even if there is no
-// plan.
+// Approximate limit on the joint moves of an instance, so that the oracle stays fast even if there
+// is no plan.
 constexpr double kMaxJointMoves = 2e7;
 constexpr int kMaxTasksEach = 4;
 
@@ -30,7 +30,8 @@ class Maker {
     places_ = static_cast<int>(cells_.size());
     if (roads_) add_roads();
     place_agents();
-    // Most instances come from random moves of single agents, so that there is a plan.
+    // Most instances come from random moves, which guarantee that each agent can reach its tasks
+    // and destination.
     if (random_.percent(70))
       play();
     else
@@ -41,8 +42,8 @@ class Maker {
   }
 
  private:
-  // Replaces the grid's adjacency by roads: some long, some one-way, some parallel or missing, and
-  // sometimes one between distant cells.
+  // Replaces the grid's adjacency by roads. Some are long, one-way, parallel or missing, and
+  // sometimes one joins distant cells.
   void add_roads() {
     for (const Position p : cells_)
       for (const Position q : cells_)
@@ -67,7 +68,7 @@ class Maker {
     });
   }
 
-  // The cells that can be reached from `from`.
+  // Returns the cells that are reachable from `from`.
   std::vector<Position> component(Position from) const {
     std::vector<Position> found{from};
     for (std::size_t head = 0; head < found.size(); ++head)
@@ -91,7 +92,8 @@ class Maker {
     tasks_of_.assign(instance_.agents.size(), 0);
   }
 
-  // Moves the agents at random: destinations are where they end, tasks are where they have been.
+  // Moves the agents at random: their final cells become destinations, and cells that they have
+  // visited become tasks.
   void play() {
     const int agents = static_cast<int>(instance_.agents.size());
     for (int a = 0; a < agents; ++a) reach_[a] = {instance_.agents[a].start};
@@ -104,7 +106,8 @@ class Maker {
     }
   }
 
-  // Random destinations and tasks, rarely at unreachable cells, because presolve detects these.
+  // Sets random destinations and tasks, rarely on unreachable cells, because presolve detects
+  // these.
   void draw_goals() {
     const bool everywhere = random_.percent(20);
     for (auto& agent : instance_.agents) agent.goal.reset();
@@ -121,7 +124,7 @@ class Maker {
     return std::ranges::any_of(instance_.agents, [&](const auto& a) { return a.goal == p; });
   }
 
-  // Turns all, some or no agents into MG agents; their destination becomes a task.
+  // Turns all, some or no agents into MG agents, each with its destination as an additional task.
   void make_mg() {
     constexpr int kChances[] = {0, 50, 100};
     const int chance = kChances[random_.below(3)];
@@ -133,7 +136,7 @@ class Maker {
     }
   }
 
-  // Half of the tasks lie on the start or destination of some agent.
+  // Returns a task cell for `agent`; half of them are the start or destination of some agent.
   Position task_cell(int agent) {
     const Position any = random_.pick(reach_[agent]);
     if (random_.percent(50)) return any;
@@ -152,7 +155,7 @@ class Maker {
     return tasks_of_[agent] < kMaxTasksEach && std::ldexp(moves, tasks) <= kMaxJointMoves;
   }
 
-  // Adds a task on `cell` for `agent`, or adds the agent to the existing task there.
+  // Adds a task on `cell` for `agent`, or adds the agent to a task that is already there.
   void give(int agent, Position cell) {
     auto task =
         std::ranges::find_if(instance_.tasks, [&](const auto& t) { return t.cell == cell; });

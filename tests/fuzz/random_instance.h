@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random tiny instances: small enough for the oracle, and difficult for the search.
+// Random tiny instances, small enough for the oracle but difficult for the search.
 #pragma once
 
 #include <cstdint>
@@ -8,19 +8,20 @@
 
 namespace grove::detail::fuzz {
 
-// Returns a valid instance, possibly without a plan. The same seed gives the same instance.
+// Returns a valid instance on a grid, possibly without a plan. The same seed gives the same
+// instance.
 TinyInstance random_instance(std::uint64_t seed);
 
-// The same with exactly `agents` agents, or fewer if the map has no room for them.
+// Like random_instance(seed), but with exactly `agents` agents, or fewer if the map has no room.
 TinyInstance random_instance(std::uint64_t seed, int agents);
 
-// On a roadmap with roads of several lengths, some of them one-way or parallel.
+// Returns an instance on a roadmap whose roads have several lengths; some are one-way or parallel.
 TinyInstance random_roads(std::uint64_t seed);
 
-// A mixture: on a grid or a roadmap, with turning agents, tasks with a duration, several tasks on a
-// cell, idle agents, and starts on a road, during a turn or during a task.
+// Returns an instance on a grid or a roadmap, with some of: turning agents, tasks with a duration,
+// several tasks on a cell, idle agents, and starts on a road, during a turn or during a task.
 TinyInstance random_world(std::uint64_t seed);
-// Adds such features to `instance`, of any size.
+// Adds some features of random_world() to `instance`, which can have any size.
 TinyInstance with_motions(TinyInstance instance, std::uint64_t seed);
 
 }  // namespace grove::detail::fuzz

@@ -35,7 +35,7 @@ Rows obstacles(Random& random) {
   return rows;
 }
 
-// A corridor in the middle row, with side branches of `depth` cells on both sides.
+// A corridor in the middle row with side branches of `depth` cells on both sides.
 Rows comb(int length, int depth, int branches, Random& random) {
   Rows rows = filled(length, 2 * depth + 1, '@');
   rows[depth] = std::string(static_cast<std::size_t>(length), '.');
@@ -58,7 +58,7 @@ Rows rooms(Random& random) {
   return rows;
 }
 
-// Grows by cells that are adjacent to exactly one cell of the tree.
+// Grows a tree: each new cell is adjacent to exactly one cell of the tree.
 Rows tree(Random& random) {
   constexpr int kSize = 4;
   Rows rows = filled(kSize, kSize, '@');

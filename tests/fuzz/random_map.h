@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random tiny maps of shapes that are difficult for the search.
+// Random tiny maps with shapes that are difficult for the search.
 #pragma once
 
 #include <string>
@@ -10,19 +10,19 @@
 namespace grove::detail::fuzz {
 
 enum class Shape {
-  kOpen,       // no obstacle
+  kOpen,       // no obstacles
   kObstacles,  // random obstacles
   kCorridor,   // one cell wide
   kBays,       // a corridor with places to step aside
   kDeadEnds,   // a corridor with side branches two deep
   kRooms,      // two rooms and a door
-  kTree,       // no cycle
-  kRing,       // one cycle, perhaps with a bay
-  kTwoParts,   // two of the above, unconnected
+  kTree,       // no cycles
+  kRing,       // one cycle, possibly with a bay
+  kTwoParts,   // two separate maps of the shapes above
 };
 inline constexpr int kShapeCount = 9;
 
-// Rows of '.' and '@'; 4 to 14 passable cells.
+// Returns rows of '.' (passable) and '@' (blocked) with 4 to 14 passable cells.
 std::vector<std::string> random_map(Shape shape, Random& random);
 
 // Returns the number of passable cells among the four neighbours of a cell.

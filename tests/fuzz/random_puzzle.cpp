@@ -11,9 +11,9 @@
 namespace grove::detail::fuzz {
 namespace {
 
-constexpr int kSize = 7;  // max side of a board
+constexpr int kSize = 7;  // maximum side of a board
 
-// Grows cell by cell; a cell that closes a ring or widens a corridor is rarely added.
+// Grows the board cell by cell; a cell that closes a ring or widens a corridor is rarely added.
 std::vector<std::string> corridors(int cells, Random& random) {
   std::vector<std::string> rows(kSize, std::string(kSize, '@'));
   rows[kSize / 2][kSize / 2] = '.';

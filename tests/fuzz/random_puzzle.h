@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random puzzles: few agents on small boards with corridors, where all agents block each other.
+// Random puzzles: a few agents that block each other on small boards with corridors.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace grove::detail::fuzz {
 
-// Returns 3 to 5 agents on a board of 8 to 25 cells, with one or two tasks each. In half of the
-// puzzles the agents have no destinations. Possibly without a plan. The same seed gives the same
-// puzzle.
+// Returns a puzzle with 3 to 5 agents on a board of 8 to 25 cells. Each agent has one or two tasks;
+// in half of the puzzles no agent has a destination. A plan need not exist. The same seed gives the
+// same puzzle.
 TinyInstance random_puzzle(std::uint64_t seed);
 
 }  // namespace grove::detail::fuzz

@@ -8,7 +8,7 @@
 namespace grove::detail::fuzz {
 namespace {
 
-// Approximate limit on the joint states of an instance, to keep the oracle fast.
+// Approximate limit on the joint states of an instance, so that the oracle stays fast.
 constexpr double kMaxJointStates = 4e6;
 
 Heading random_heading(Random& random) {
@@ -51,7 +51,7 @@ class Decorator {
     }
   }
 
-  // Tasks with a duration, also at destinations, where finish and arrival differ.
+  // Gives tasks a duration, also at destinations, where the finish is then later than the arrival.
   void work() {
     for (TinyInstance::Task& task : instance_.tasks)
       if (random_.percent(60)) task.duration = random_.between(1, 4);
@@ -111,7 +111,7 @@ class Decorator {
     std::erase_if(instance_.tasks, [](const auto& task) { return task.agents.empty(); });
   }
 
-  // Some agents start on a task of theirs, after a part of its duration.
+  // Lets some agents start in the middle of executing one of their tasks.
   void begin_work() {
     for (int a = 0; a < agents(); ++a) {
       TinyInstance::Agent& agent = instance_.agents[a];

@@ -17,7 +17,7 @@ namespace {
 using Clock = Limits::Clock;
 using std::chrono::milliseconds;
 
-// CBS need not terminate if there is no plan, so without a plan the time limit is divided by this.
+// CBS need not terminate if there is no plan; the time limit is then divided by this factor.
 constexpr int kWithoutPlan = 10;
 constexpr milliseconds kSoon{1};
 constexpr milliseconds kAllowedOverrun{3000};
@@ -31,7 +31,7 @@ struct Run {
   Clock::duration overrun{};
 };
 
-// True if the limit `strike` is reached whatever the solver does.
+// Returns whether `strike` alone stops the run, whatever the solver does.
 bool always_stops(ImposedLimit strike) {
   return strike == ImposedLimit::kExpired || strike == ImposedLimit::kInterrupt;
 }
@@ -62,7 +62,8 @@ Run run(const Instance& instance, const FuzzCase& fuzz_case, const oracle::Answe
   run.stopped =
       limits.reason() != StopReason::kNone || always_stops(fuzz_case.strike) || out_of_memory;
   run.duration = end - begin;
-  // A process that had to wait is not late: only its processor time beyond the deadline counts.
+  // Counts only processor time beyond the deadline, because the operating system can suspend the
+  // process.
   const Clock::time_point due = std::max(begin, deadline);
   run.overrun = std::min(end - due, worked - (due - begin));
   return run;

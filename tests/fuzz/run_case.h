@@ -13,25 +13,25 @@
 
 namespace grove::detail::fuzz {
 
-// A solver under test, possibly one with false claims. Its last argument is the oracle's answer, so
-// that such a solver need not compute it.
+// A solver under test, which can also be one with deliberate errors. The oracle's answer is passed
+// to it, because such a solver needs the truth to make false claims.
 using Solver = std::function<Solution(const Instance&, const SolveOptions&, const Limits&,
                                       const oracle::Answer& truth)>;
 
 struct CaseResult {
-  bool too_large = false;               // for the oracle; the solver was not called
+  bool too_large = false;               // too large for the oracle; the solver was not called
   bool solvable = false;                // the oracle found a plan
-  bool stopped = false;                 // a limit was reached
+  bool stopped = false;                 // a limit stopped the run
   Status status = Status::kUnknown;     // as the solver reports it
   std::vector<std::string> complaints;  // empty: no failure
 };
 
-// Time limit of a run without another limit. It does not test speed: at the limit the run is
-// stopped, and may report this.
+// Time limit of a run without another limit. Reaching it is no failure: the run then counts as
+// stopped.
 inline constexpr std::chrono::milliseconds kPatience{2000};
 
-// Runs the oracle and `solver`, and compares their answers. A short run that reached no limit is
-// repeated and must end the same.
+// Runs the oracle and `solver`, and compares their answers. A short, repeatable run that reached no
+// limit is repeated and must give the same answer.
 CaseResult run_case(const FuzzCase& fuzz_case, const Solver& solver,
                     std::chrono::milliseconds patience = kPatience);
 

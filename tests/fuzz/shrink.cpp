@@ -49,7 +49,7 @@ void move_all(TinyInstance& instance, const std::function<void(Position&)>& move
   }
 }
 
-// Removes the roads at removed cells. Returns false if no road is left, although there were some.
+// Removes the roads at removed cells. Returns false if this removes all roads.
 bool drop_roads(TinyInstance& instance, const std::function<bool(Position)>& is_gone) {
   if (instance.roads.empty()) return true;
   std::erase_if(instance.roads,
@@ -57,7 +57,8 @@ bool drop_roads(TinyInstance& instance, const std::function<bool(Position)>& is_
   return !instance.roads.empty();
 }
 
-// Returns nullopt if something lies in the row.
+// Returns the instance without this row, or nullopt if an agent, task or road uses a cell of the
+// row.
 std::optional<TinyInstance> without_row(TinyInstance instance, int row) {
   for (int x = 0; x < static_cast<int>(instance.rows[row].size()); ++x)
     if (in_use(instance, {x, row})) return std::nullopt;
@@ -97,7 +98,7 @@ class Steps {
     try {
       (void)candidate.instance.build();
     } catch (const std::invalid_argument&) {
-      return;  // invalid, for instance an MG agent without a task
+      return;  // invalid, for instance because an MG agent would have no task
     }
     cases_.push_back(std::move(candidate));
   }
@@ -143,7 +144,7 @@ class Steps {
     }
   }
 
-  // Adds the instance with agent `a` changed by `change`, if that changes it.
+  // Adds the instance in which `change` is applied to agent `a`, if it differs from the original.
   template <typename Change>
   void change_agent(std::size_t a, Change change) {
     TinyInstance plainer = from_.instance;

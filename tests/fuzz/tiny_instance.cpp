@@ -77,7 +77,7 @@ AgentSpec spec_of(const InstanceBuilder& builder, int number, const TinyInstance
   return spec;
 }
 
-// Reads `x,y`, leaving the stream behind it.
+// Reads `x,y` from the stream.
 Position read_position(std::istream& in) {
   Position p;
   char comma = 0;

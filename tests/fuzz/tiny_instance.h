@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A tiny instance as plain data: easy to change, to print and to read back.
+// A tiny instance as plain data that is easy to change, print and parse.
 #pragma once
 
 #include <optional>
@@ -11,9 +11,9 @@
 
 namespace grove::detail::fuzz {
 
-// Agents and tasks are named by their positions: agent 0 is "a0", task 0 is "t0".
+// Agents and tasks are named by their index: agent 0 is "a0", task 0 is "t0".
 //
-// As text ('#' begins a comment, blank lines do not count):
+// Text format ('#' starts a comment, blank lines are ignored):
 //
 //     map
 //     ....
@@ -25,7 +25,7 @@ namespace grove::detail::fuzz {
 //     2,0: 0 1       (cell: the agents that must visit it)
 //     2,0 takes 3: 0 (the task takes 3 steps)
 //
-// Behind an agent there may be, in this order:
+// After an agent these fields can follow, in this order:
 //
 //     turn 2 N       (a quarter turn takes 2 steps; it faces north)
 //     to E 1         (it has made one step of the turn to the east)
@@ -33,9 +33,11 @@ namespace grove::detail::fuzz {
 //     work 0 2       (it has done 2 steps of task 0)
 //     road 1 2       (it starts 2 steps along road 1 instead)
 //
-// A line "no following" forbids agents to enter a place in the step in which another leaves it.
+// A line "no following" forbids agents to enter a place in the step in which another agent leaves
+// it.
 //
-// With roads the passable cells are the vertices of a roadmap, and nothing else joins them:
+// With a section of roads, the passable cells are the vertices of a roadmap, and only the roads
+// connect them:
 //
 //     roads
 //     0,0 = 1,0 3    (in 3 steps, both ways)
@@ -49,7 +51,7 @@ struct TinyInstance {
     Heading to = Heading::kNorth;
     Time turned = 0;
     std::optional<Heading> goal_heading = {};
-    int work = -1;  // index of a task that it has begun; -1: none
+    int work = -1;  // index of a task in execution at the start; -1: none
     Time done = 0;
     int road = -1;
     Time along = 0;
@@ -79,16 +81,16 @@ struct TinyInstance {
   // Throws InstanceError or std::invalid_argument if the instance is invalid.
   Instance build() const;
   std::string to_text() const;
-  // Throws std::invalid_argument naming the line.
+  // Throws std::invalid_argument with the line number if `text` is malformed.
   static TinyInstance parse(std::string_view text);
 
   friend bool operator==(const TinyInstance&, const TinyInstance&) = default;
 };
 
-// The passable cells, row by row.
+// Returns the passable cells, row by row.
 std::vector<Position> passable_cells(const std::vector<std::string>& rows);
 
-// True if `p` is some agent's start, destination or task.
+// Returns whether `p` is a start, a destination or a task cell.
 bool in_use(const TinyInstance& instance, Position p);
 
 }  // namespace grove::detail::fuzz

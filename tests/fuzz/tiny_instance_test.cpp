@@ -64,7 +64,7 @@ TEST(RandomInstance, IsTheSameForTheSameSeed) {
   EXPECT_NE(random_instance(7), random_instance(8));
 }
 
-// Features that are difficult for the search must occur often enough.
+// Features that are difficult for the search must occur often.
 TEST(RandomInstance, CoversDifficultFeatures) {
   int mg = 0;
   int shared_tasks = 0;

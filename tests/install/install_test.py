@@ -4,9 +4,9 @@
 
     install_test.py SOURCE BUILD COMPILER CMAKE PYTHON [--long]
 
-PYTHON: the interpreter for which the module is built; empty if it is not built. Installs BUILD into a temporary folder
-and builds dependent projects against it. With --long also builds a project that contains Grove as a subdirectory,
-without MPI and CBC (some minutes).
+PYTHON: the interpreter for which the Python module is built; empty if it is not built. The test installs BUILD into
+a temporary folder and builds dependent projects against it. With --long it also builds a project that contains Grove
+as a subdirectory, without MPI and CBC (takes some minutes).
 """
 import os
 import re
@@ -80,10 +80,10 @@ int main(int argc, char** argv) {
 }
 """
 MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-# Exported symbols of the shared library: the public API and template instances of the standard library.
+# Symbols that the shared library may export: the public API and template instances of the standard library.
 EXPORTED = re.compile(r"^(grove::(?!detail::)|(typeinfo|typeinfo name|vtable|VTT) for grove::(?!detail::)|"
                    r"(\w+ )*std::|.* std::)")
-# Parts of symbols that must not be exported: those of bundled libraries and of grove::detail.
+# Parts of symbols that it must not export, from bundled libraries and from grove::detail.
 HIDDEN = re.compile(r"nlohmann|CLI::|YAML|pugi|fmt::|cereal|grove::detail")
 
 
@@ -99,7 +99,7 @@ class Installed(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = Path(tempfile.mkdtemp())
-        cls.prefix = cls.folder / "pre fix"  # a path with a blank
+        cls.prefix = cls.folder / "pre fix"  # a path with a space
         run(CMAKE, "--install", BUILD, "--prefix", cls.prefix)
         cls.library = next(cls.prefix.glob("lib/**/libgrove.so"))
 
@@ -137,7 +137,7 @@ class Installed(unittest.TestCase):
         folder = self.project("pkg", "", "")
         flags = run("pkg-config", "--cflags", "--libs", "grove",
                     PKG_CONFIG_PATH=self.library.parent / "pkgconfig")
-        flags = shlex.split(flags)  # splits like eval of a shell
+        flags = shlex.split(flags)  # splits like the shell
         run(COMPILER, "-std=c++20", "main.cpp", *flags, "-o", "stranger", folder=folder)
         self.assertEqual(run(folder / "stranger", LD_LIBRARY_PATH=self.library.parent), "cost 3\n")
 
@@ -151,7 +151,7 @@ class Installed(unittest.TestCase):
         self.assertIn("one task more", run(folder / "build/stranger"))
 
     def test_lifelong_example_is_built(self):
-        """Builds the lifelong example only from public headers and the standard library, as its README describes."""
+        """Builds the lifelong example from public headers and the standard library only, as its README describes."""
         installed = next(self.prefix.glob("share/doc/**/lifelong"))
         readme = (Path(SOURCE) / "examples/lifelong/README.md").read_text()
         lines = [line for line in readme.splitlines() if line.startswith("    ")]
@@ -255,7 +255,7 @@ class Installed(unittest.TestCase):
         output = run(self.prefix / "share/grove/smoke-test")
         self.assertRegex(output, "(?m)^ok +solve$")
         self.assertRegex(output, "(?m)^ok +library by CMake$")
-        broken = self.folder / "broken"  # with a grove that always succeeds
+        broken = self.folder / "broken"  # an installation whose grove always succeeds
         for name in ("bin", "share/grove"):
             (broken / name).mkdir(parents=True)
         shutil.copy(self.prefix / "share/grove/smoke-test", broken / "share/grove")

@@ -80,7 +80,7 @@ TEST(WriteFileAtomically, RefusesUnwritablePaths) {
   EXPECT_EQ(file_content(directory / "file"), "old");
 }
 
-// During its lifetime a test run by root has the rights of an unprivileged user.
+// During its lifetime a test that root runs has the rights of an unprivileged user.
 class UnprivilegedUser {
  public:
   UnprivilegedUser() : was_root_(::geteuid() == 0) {
@@ -134,7 +134,7 @@ TEST(WriteFileAtomically, KeepsTheOldFileWhenTheDiskIsFull) {
   EXPECT_EQ(directory.files(), Names{"file"});
 }
 
-// A process that has written half of `file` and waits until it is killed.
+// A process that writes half of `file` and then waits to be killed.
 class Writer {
  public:
   explicit Writer(const std::string& file) {
@@ -167,7 +167,7 @@ class Writer {
   pid_t process_ = -1;
 };
 
-// Name of the half-written file in the folder other than `other`, or "" if there is none.
+// Returns the name of a half-written file, any file except `other`; "" if there is none.
 std::string half_written(const TemporaryDirectory& directory, const std::string& other) {
   for (const std::string& name : directory.files())
     if (name != other && file_content(directory / name) == "half") return name;
@@ -186,7 +186,8 @@ TEST(WriteFileAtomically, RemovesTemporaryFilesOfKilledProcesses) {
   EXPECT_EQ(directory.files(), (Names{live, "other"}));
 }
 
-// Not every file system shows whether another host has locked its file.
+// Some file systems do not show whether another host has locked a file, so the age of the file
+// decides.
 TEST(WriteFileAtomically, RemovesOldTemporaryFilesOfOtherHosts) {
   const TemporaryDirectory directory;
   directory.write(".grove-1-1-1@elsewhere.tmp", "half");

@@ -31,7 +31,8 @@ TEST(Csv, NumberIsNoFormula) {
   EXPECT_EQ(csv_cell("-inf"), "'-inf");
 }
 
-// A spreadsheet removes one apostrophe, so a value that begins with one gets another.
+// A spreadsheet removes one apostrophe, so a value that starts with an apostrophe gets a second
+// one.
 TEST(Csv, ApostropheBeforeAFormulaIsDoubled) {
   EXPECT_EQ(csv_cell("'=1"), "''=1");
   EXPECT_EQ(csv_cell("''=1"), "'''=1");

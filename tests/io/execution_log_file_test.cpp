@@ -46,7 +46,7 @@ class ExecutionLogFile : public ::testing::Test {
   std::string refused(const std::string& content) {
     return refusal([&] { read(content); });
   }
-  // Message for a log whose second line has `from` replaced by `to`.
+  // Returns the message for a log in whose second line `from` is replaced by `to`.
   std::string refused_with(const std::string& from, const std::string& to) {
     std::string line = kSeen;
     EXPECT_NE(line.find(from), std::string::npos) << from;

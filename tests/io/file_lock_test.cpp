@@ -91,7 +91,7 @@ TEST(FileLock, IsReleasedWhenItsProcessIsKilled) {
     for (;;) ::pause();
   }
   const std::filesystem::path file = directory / "lock";
-  // Until the holder has written its name:
+  // Wait until the holder has written its name.
   while (!std::filesystem::exists(file) || std::filesystem::is_empty(file))
     std::this_thread::yield();
   EXPECT_NE(locking(file), "accepted");

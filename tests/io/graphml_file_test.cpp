@@ -9,7 +9,8 @@
 namespace grove::detail {
 namespace graphml_file_test {
 
-// An undirected graph as written by networkx: a key for each type of number, data in any order.
+// An undirected graph as networkx writes it: one key for each type of number, and data in any
+// order.
 const std::string kNetworkx = R"(<?xml version='1.0' encoding='utf-8'?>
 <graphml xmlns="http://graphml.graphdrawing.org/xmlns"
          xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance">
@@ -39,8 +40,8 @@ const std::string kNetworkx = R"(<?xml version='1.0' encoding='utf-8'?>
 </graphml>
 )";
 
-// A graph as written by yEd: positions are in the drawing, other elements are everywhere, and all
-// edges are directed.
+// A graph as yEd writes it: positions are in the drawing, unrelated elements are everywhere, and
+// all edges are directed.
 const std::string kYed = R"(<?xml version="1.0" encoding="UTF-8" standalone="no"?>
 <graphml xmlns="http://graphml.graphdrawing.org/xmlns" xmlns:y="http://www.yworks.com/xml/graphml">
   <!--Created by yEd 3.22-->
@@ -80,7 +81,7 @@ const std::string kB = "<node id='B'><data key='x'>3</data><data key='y'>4</data
 std::string refused(const std::string& text) {
   return refusal([&] { parse_graphml(text, "g.graphml"); });
 }
-// A network with an edge from A to B that contains `inside`.
+// Returns a network with an edge from A to B whose element contains `inside`.
 RoadNetwork with_edge(const std::string& inside, const std::string& before = "") {
   return parse_graphml(
       graphml(kA + kB + "<edge source='A' target='B'>" + inside + "</edge>", before), "g.graphml");
@@ -115,7 +116,7 @@ TEST(GraphmlFile, ReadsFilesOfYed) {
   EXPECT_EQ(network.vertices[1].at, (Point{15, 15}));
   ASSERT_EQ(network.links.size(), 2u);
   EXPECT_TRUE(network.links[0].one_way);
-  EXPECT_EQ(network.links[0].metres, 2.5);  // the default of the key
+  EXPECT_EQ(network.links[0].metres, 2.5);  // the default value of the key
   EXPECT_FALSE(network.links[1].one_way);
   EXPECT_EQ(network.links[1].metres, 7);
 }
@@ -284,7 +285,7 @@ TEST(GraphmlFile, SurvivesDeepNesting) {
   EXPECT_EQ(parse_graphml(graphml(kA + closed), "g").vertices.size(), 1u);
 }
 
-// Each text, truncated or with a bit changed, is either read or refused.
+// Each text is truncated or gets a flipped bit; the reader must either read or refuse it.
 TEST(GraphmlFile, DamagedTextsAreReadOrRefused) {
   for (const std::string& text : {kNetworkx, kYed})
     for (std::size_t k = 0; k < text.size(); ++k) {

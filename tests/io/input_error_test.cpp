@@ -20,7 +20,7 @@ TEST(OneLine, EscapesControlCharacters) {
 TEST(OneLine, KeepsUtf8AndEscapesOtherBytes) {
   EXPECT_EQ(one_line("Rübe 樹 🌳"), "Rübe 樹 🌳");
   EXPECT_EQ(one_line("\xff\xc3"), "\\xff\\xc3");
-  EXPECT_EQ(one_line("\xc0\xaf"), "\\xc0\\xaf");  // overlong
+  EXPECT_EQ(one_line("\xc0\xaf"), "\\xc0\\xaf");  // overlong encoding
   EXPECT_EQ(one_line("\xe6\xa8x"), "\\xe6\\xa8x");
 }
 

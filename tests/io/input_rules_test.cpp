@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// File names that lead out of a folder, and small files that would need gigabytes of memory.
-// tests/tools/common/hostile_files_test.py tests the same through the programs.
+// Tests file names that lead out of a folder, and small files that would need gigabytes of memory.
+// tests/tools/common/hostile_files_test.py tests the same rules through the programs.
 #include "io/input_rules.h"
 
 #include <gmock/gmock.h>
@@ -90,7 +90,7 @@ TEST_F(InputRulesTest, StatesOfTurnsAndWorkCount) {
   const std::string turning = R"("agents": [{"id": "a", "start": [0, 0], "motion": "turning",
     "heading": "N", "turn_steps": 65536, "goal": [1, 0]}], "tasks": [])";
   EXPECT_EQ(refused(turning, {}), "accepted");
-  EXPECT_EQ(refused(turning), "accepted");  // a million states
+  EXPECT_EQ(refused(turning), "accepted");  // one million states
   std::string tasks;
   for (int i = 0; i < 30; ++i)
     tasks += (i > 0 ? ", " : "") + std::string(R"({"id": "t)") + std::to_string(i) +

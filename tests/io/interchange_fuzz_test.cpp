@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Random mutations of valid files of other tools. A reader either returns an instance, which can be
-// written and is read back the same, or throws InputError. GROVE_FUZZ_FACTOR multiplies the number
-// of cases.
+// Random mutations of valid files of other tools. A reader must either throw InputError or return
+// an instance that survives writing and reading. GROVE_FUZZ_FACTOR multiplies the number of cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -94,8 +93,8 @@ int cases() {
   return testing::fuzz_rounds(1000);
 }
 
-// Reads every mutation of `text`, and reads again what `write` writes. Returns how many mutations
-// were read.
+// Reads every mutation of `text`; an instance that is read must survive `write` and `read`. Returns
+// the number of mutations that were read.
 template <typename Read, typename Write>
 int survivors(const std::string& text, Read read, Write write) {
   const TemporaryDirectory directory;
@@ -111,7 +110,7 @@ int survivors(const std::string& text, Read read, Write write) {
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find("in: "), std::string::npos) << error.what();
     } catch (const NotRepresentable&) {
-      continue;  // a mixture of goal and goals
+      continue;  // a mixture of agents with and without goals
     } catch (const std::exception& error) {
       ADD_FAILURE() << error.what();
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The known keys of each object in Grove's own files, and the messages for unknown keys.
+// Tests the known keys of each object in Grove's own files, and the messages for unknown keys.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -17,7 +17,7 @@
 namespace grove::detail {
 namespace known_keys_test {
 
-// In each text '~' marks a place where a key can be added.
+// In each text '~' marks a position where a key can be inserted.
 const std::string kInstance = R"({~"map": "m.map",
   "agents": [{~"id": "a", "start": [0, 0], "goal": [2, 0], "working": {~"task": "w", "done": 1}}],
   "tasks": [{~"id": "w", "cell": [0, 0], "agents": ["a"], "duration": 2}]})";
@@ -33,8 +33,8 @@ const std::string kSolver = R"json({~"name": "s", "command": "{program} {map} {s
   "claims": {~"cost": {~"regex": "(.)"}},
   "trace": [{~"regex": "(.)(.)", "groups": ["cost", "seconds"]}]})json";
 
-// `text` with `member` at marked place `number`, or "" if there are fewer places; a negative
-// `number` adds nothing.
+// Returns `text` with `member` inserted at marked position `number`, or "" if there are fewer
+// positions. If `number` is negative, nothing is inserted.
 std::string with(const std::string& text, int number, const std::string& member) {
   std::string made;
   int count = 0;
@@ -125,10 +125,10 @@ TEST_F(KnownKeys, CloseKeyIsSuggested) {
               "f: /edges/0: " + hint(found, "'one_way' (true: only from 'from' to 'to')"));
   EXPECT_EQ(refused("roadmap", R"({"vertices": [{"id": "A", "position": [0, 0]}], "edges": []})"),
             "f: /vertices/0: " + hint("position", "'at'"));
-  // The key of another object, but close to one of this object.
+  // This key belongs to a different object but is similar to a key of this one.
   EXPECT_EQ(refused("instance", R"({"map": "m.map", "agents": [], "task": []})"),
             "f: /: " + hint("task", "'tasks'"));
-  // The close key is present, so another one was meant.
+  // The similar key is already used, so the message does not suggest it.
   EXPECT_EQ(
       refused_member(kInstance, 1, R"("gaol": [1, 1])"),
       "f: /agents/0: unknown key 'gaol'; expected one of id, start, goal, motion, turn_steps, "

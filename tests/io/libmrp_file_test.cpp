@@ -11,7 +11,7 @@
 namespace grove::detail {
 namespace libmrp_file_test {
 
-// . @ . . .   Wider than high, and without any symmetry.
+// . @ . . .   Wider than high, and without symmetries.
 // . . . . .
 // . . . @ @
 const std::string kMapText =
@@ -45,7 +45,7 @@ Instance mg_mapf(const std::string& last_task = "t2") {
   return std::move(builder).build();
 }
 
-// Agents, tasks and obstacles as one line, to compare instances.
+// Returns agents, tasks and obstacles in one line, to compare instances.
 std::string summary(const Instance& instance) {
   const Grid& grid = instance.grid();
   const auto cell = [&](Cell c) {
@@ -134,7 +134,7 @@ TEST_F(LibmrpFile, KeepsNamesThatYamlMustQuote) {
   }
 }
 
-// Python's yaml takes these characters for line ends.
+// Python's yaml takes some non-ASCII characters for line ends.
 TEST_F(LibmrpFile, WritesAsciiOnly) {
   InstanceBuilder builder(grid());
   builder.add_agent("\u2028\u0085\u00e9", {0, 0}, Position{4, 0});

@@ -30,7 +30,7 @@ const std::string kPlant = R"({
       {"edgeId": "e2", "startNodeId": "out", "endNodeId": "in"}],
     "stations": [{"stationId": "S", "interactionNodeIds": ["in"]}]}]})";
 
-// Two floors, joined by a lift.
+// Two floors connected by a lift.
 const std::string kFloors = R"({"layouts": [
   {"layoutId": "low", "nodes": [{"nodeId": "A", "nodePosition": {"x": 0, "y": 0}},
                                 {"nodeId": "B", "nodePosition": {"x": 2, "y": 0}}],
@@ -39,7 +39,7 @@ const std::string kFloors = R"({"layouts": [
   {"layoutId": "high", "nodes": [{"nodeId": "C", "nodePosition": {"x": 2, "y": 0}}],
    "edges": [{"edgeId": "CB", "startNodeId": "C", "endNodeId": "B"}]}]})";
 
-// T1 and T2 may use different nodes and edges.
+// Vehicle types T1 and T2, which may use different nodes and edges.
 const std::string kTypes = R"({"layouts": [{"layoutId": "l", "nodes": [
     {"nodeId": "A", "nodePosition": {"x": 0, "y": 0}, "vehicleTypeNodeProperties":
       [{"vehicleTypeId": "T1"}, {"vehicleTypeId": "T2"}]},
@@ -126,7 +126,8 @@ TEST(LifFile, SeveralVehicleTypesRequireAChoice) {
 }
 
 TEST(LifFile, TrajectoriesGiveTheLength) {
-  // An exact quarter circle of radius 6; then a polyline with a corner, of the default degree.
+  // An exact quarter circle of radius 6, followed by a polyline with a corner and the default
+  // degree.
   const RoadNetwork arc =
       parse_lif(with_trajectory(R"({"degree": 2.0, "knotVector": [0,0,0,1,1,1], "controlPoints": [
         {"x": 6, "y": 0}, {"x": 6, "y": 6, "weight": 0.70710678118654757}, {"x": 0, "y": 6}]})"),
@@ -137,13 +138,14 @@ TEST(LifFile, TrajectoriesGiveTheLength) {
         [{"x": 0, "y": 0}, {"x": 3, "y": 4}, {"x": 3, "y": 10}]})"),
                 "p");
   EXPECT_NEAR(corner.links[0].metres, 11, 1e-9);
-  // Cubic with an interior knot: a straight line, whose length is known.
+  // A cubic with an interior knot that is a straight line, so that its length is known.
   const RoadNetwork straight = parse_lif(
       with_trajectory(R"({"degree": 3, "knotVector": [0,0,0,0,0.5,1,1,1,1], "controlPoints":
         [{"x": 0, "y": 0}, {"x": 1, "y": 0}, {"x": 4, "y": 0}, {"x": 5, "y": 0}, {"x": 8, "y": 0}]})"),
       "p");
   EXPECT_NEAR(straight.links[0].metres, 8, 1e-9);
-  // In local coordinates, as some exporters write: never less than the straight line.
+  // Some exporters write local coordinates. The length is never below the straight-line distance of
+  // the nodes.
   const RoadNetwork elsewhere = parse_lif(
       with_trajectory(
           R"({"knotVector": [0,0,1,1], "controlPoints": [{"x": 0, "y": 0}, {"x": 1, "y": 0}]})"),

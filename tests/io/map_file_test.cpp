@@ -38,7 +38,7 @@ TEST_F(MapFile, ReadsCellsRowByRow) {
 TEST_F(MapFile, AcceptsVariantsOfOtherTools) {
   EXPECT_EQ(read("type octile\r\nwidth 3\r\nheight 2\r\nmap\r\n...\r\n...\r\n").passable_count(),
             6);
-  EXPECT_EQ(read(kHeader + "...\n...").passable_count(), 6);        // no last newline
+  EXPECT_EQ(read(kHeader + "...\n...").passable_count(), 6);        // no newline at the end
   EXPECT_EQ(read(kHeader + "...\n...\n\n\n").passable_count(), 6);  // empty lines at the end
   EXPECT_EQ(read("\xEF\xBB\xBF" + kHeader + "...\n...\n").passable_count(), 6);
 }

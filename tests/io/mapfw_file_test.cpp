@@ -11,7 +11,7 @@
 namespace grove::detail {
 namespace mapfw_file_test {
 
-// . @ . . .   Wider than high, and without any symmetry.
+// . @ . . .   Wider than high, and without symmetries.
 // . . . . .
 // . . . @ @
 const std::vector<std::string> kMap = {".@...", ".....", "...@@"};
@@ -72,7 +72,7 @@ TEST_F(MapfwFile, ReadsCellsAsColumnAndRow) {
 }
 
 TEST_F(MapfwFile, ListsATaskForEachOfItsAgents) {
-  // Agent a1 lists its waypoints in the order of the tasks; their order has no meaning.
+  // Agent a1 lists its waypoints in the order of the tasks, but that order has no meaning.
   std::string expected = kProblem;
   expected.replace(expected.find("[[0,1],[2,1]]"), 13, "[[2,1],[0,1]]");
   EXPECT_EQ(written(instance()), expected);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files of instances with agents that turn, and tasks that take time or are already begun; and
-// files of their plans.
+// Tests instance files with turning agents, tasks with a duration and tasks in execution at the
+// start, and the plan files for them.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -19,7 +19,7 @@ namespace motion_file_test {
 const std::string kRoads = R"({
  "vertices": [{"id": "A", "at": [0, 0]}, {"id": "B", "at": [3, 0]}],
  "edges": [{"from": "A", "to": "B", "steps": 3}]})";
-// Tasks of the agents "a" and "b" on [1, 0].
+// Tasks of agents "a" and "b" on [1, 0].
 const std::string kWork =
     R"([{"id": "t", "cell": [1, 0], "agents": ["a"], "duration": 3},
         {"id": "u", "cell": [1, 0], "agents": ["a", "b"]}])";
@@ -39,7 +39,7 @@ class MotionFile : public ::testing::Test {
     write("i.json", "{" + map + R"(, "agents": )" + agents + R"(, "tasks": )" + tasks + "}");
     return read_instance(directory_.path() / "i.json").instance;
   }
-  // Message for an agent "a" with these members beside its id.
+  // Returns the message for an agent "a" with these members in addition to its id.
   std::string refused_agent(const std::string& members, const std::string& tasks = kWork) {
     return refusal([&] { instance(R"([{"id": "a", )" + members + "}" + kOther, tasks); });
   }
@@ -195,7 +195,8 @@ TEST_F(MotionFile, InvalidValuesAreRefusedWithThePlace) {
               duration + wrong + "; expected an integer from 0 to 65536");
 }
 
-// A plan that ignored these keys would be wrong for the author of the file.
+// A reader that ignored a misplaced key would return a different instance from the one that the
+// author meant.
 TEST_F(MotionFile, KeysInTheWrongPlaceAreRefused) {
   EXPECT_EQ(
       refused_agent(R"("start": [0, 0], "duration": 3)"),
@@ -235,7 +236,7 @@ TEST_F(MotionFile, PlansHoldHeadingsAndWork) {
            "path": [[0,0,"N"],[0,0,"E"],[1,0,"E"],[1,0,"E"],[1,0,"E"],[1,0,"E"],[1,0,"S"]]},
           {"id": "b", "sequence": ["u"], "cost": 8, "path": [[2,0],[2,0],[2,0],[2,0],[2,0],[2,0],
            [2,0],[2,0],[1,0]]}])";
-  // Both agents end on one cell, which is the only violation.
+  // Both agents end on the same cell, which is the only violation.
   const auto violations = check(given, solution(given, good, 14));
   ASSERT_EQ(violations.size(), 1U);
   EXPECT_EQ(violations[0].message, "agents 'a' and 'b' are both on [1, 0] at time 8");

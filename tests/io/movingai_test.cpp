@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The readers are strict, but accept the real files.
+// The readers are strict but accept the original benchmark files.
 #include "tests/support/movingai.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plans in the formats of other tools, byte by byte.
+// Compares plans in the formats of other tools byte by byte.
 #include "io/plan_export.h"
 
 #include <gtest/gtest.h>
@@ -14,12 +14,12 @@
 namespace grove::detail {
 namespace plan_export_test {
 
-// . @ . . .   Wider than high, and without any symmetry.
+// . @ . . .   Wider than high, and without symmetries.
 // . . . . .
 // . . . @ @
 class PlanExport : public ::testing::Test {
  protected:
-  // With or without tasks the paths are the same.
+  // The paths are valid with and without tasks.
   static Instance make_instance(bool tasks) {
     InstanceBuilder builder(testing::grid_of({".@...", ".....", "...@@"}));
     builder.add_agent("red", {0, 0}, Position{4, 0});
@@ -29,8 +29,8 @@ class PlanExport : public ::testing::Test {
     return std::move(builder).build();
   }
 
-  // The first agent moves all the time, the second waits on its path and at the end, the third
-  // rests.
+  // The first agent moves in every step, the second waits on its path and at the end, and the third
+  // rests from the start.
   Solution make_solution(const Instance& instance) {
     const auto path = [&](const std::vector<Position>& positions) {
       Path cells;
@@ -135,7 +135,8 @@ TEST_F(PlanExport, OmitsStatsThatThePlanFileLacks) {
 }
 
 TEST_F(PlanExport, LossCountsLeavingTheGoalButNoRestOnIt) {
-  // On its goal from 1 to 2 and again from 4 on: the stay in between is no loss, all else is.
+  // The agent is on its goal from 1 to 2 and from 4 on. The step on its goal is no loss; the other
+  // three steps are.
   const Instance instance = testing::instance_of({"..."}, {{{0, 0}, Position{1, 0}}});
   Solution solution;
   solution.plan = Plan{4, {{4, {}, {0, 1, 1, 2, 1}}}};
@@ -198,7 +199,7 @@ TEST(TrackerScenario, IsTypeAndNumber) {
     EXPECT_FALSE(parse_tracker_scenario("m", wrong)) << wrong;
 }
 
-// Each place is at its time, waits have a begin and an end, and tasks are named where they are
+// Each place has its time, each wait has a start and an end, and tasks are named where they are
 // completed.
 TEST_F(PlanExport, WaypointsHaveTimesPosesAndTasks) {
   const Scale scale{{0.5, {10, 20}}, 2};
@@ -232,7 +233,7 @@ TEST_F(PlanExport, NavPathsHaveStampsAndPoses) {
             std::string::npos);
 }
 
-// In PlanViz U moves one row down.
+// In PlanViz, action U moves one row down.
 TEST_F(PlanExport, PlanVizHasActionsAndEvents) {
   const std::string text =
       written([&](const auto& path) { write_planviz(path, instance_, solution_); });

@@ -53,7 +53,7 @@ class PlanFile : public ::testing::Test {
   std::string refused(const std::string& content) {
     return refusal([&] { read(content); });
   }
-  // The written plan with `from` replaced by `to`.
+  // Returns the message for the written plan in which `from` is replaced by `to`.
   std::string refused_with(const std::string& from, const std::string& to) {
     std::string text = kWritten;
     EXPECT_NE(text.find(from), std::string::npos) << from;
@@ -110,7 +110,7 @@ TEST_F(PlanFile, WritesStatsThatJsonCannotHold) {
   s.stats.measures["rate"] = std::numeric_limits<double>::infinity();
   s.stats.texts["host"] = "\xff\n\"";
   const Solution back = read(written(s));
-  EXPECT_EQ(back.stats.measures.count("rate"), 0U);  // JSON has no infinity: null
+  EXPECT_EQ(back.stats.measures.count("rate"), 0U);  // null: JSON has no infinity
   EXPECT_EQ(back.stats.texts.at("host"), "\xEF\xBF\xBD\n\"");
 }
 
@@ -190,7 +190,7 @@ TEST_F(PlanFile, IsNotWrittenIfTheCheckerRefusesIt) {
     EXPECT_EQ(error.violation().json_pointer, "/agents/1/path/1");
   }
   s = solution();
-  s.lower_bound = 2;  // then the plan is not proven optimal
+  s.lower_bound = 2;  // contradicts the status `optimal`
   EXPECT_THROW(written(s), InvalidPlan);
   EXPECT_FALSE(std::filesystem::exists(directory_ / "out.json"));
 }

@@ -20,7 +20,7 @@ namespace plan_import_test {
 
 using Words = std::vector<std::string>;
 
-// . @ . .   Wider than high, and without any symmetry.
+// . @ . .   Wider than high, and without symmetries.
 // . . . .
 // . . . @
 class PlanImport : public ::testing::Test {
@@ -29,7 +29,7 @@ class PlanImport : public ::testing::Test {
     return read_plan_of_any_tool(directory_.write("plan", text), instance);
   }
   ClaimedPlan read(const std::string& text) { return read(text, mapf_); }
-  // First violation, or "" if the plan is valid.
+  // Returns the first violation, or "" if the plan is valid.
   std::string first_violation(const std::string& text) {
     const auto violations = check(mapf_, read(text).solution);
     return violations.empty() ? "" : violations[0].json_pointer + ": " + violations[0].message;
@@ -47,7 +47,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text.replace(text.find(what), what.size(), by);
 }
 
-// (row,column), as EECBS writes them; LNS2 writes no blank after the colon.
+// (row,column), as EECBS writes them. LNS2 writes no space after the colon.
 const std::string kLists =
     "Agent 0: (0,0)->(0,0)->(1,0)->(1,1)->(1,2)->(1,3)->(0,3)->\n"
     "Agent 1:(2,2)->(2,1)->(2,0)->(2,0)->(1,0)->\n";
@@ -85,7 +85,7 @@ TEST_F(PlanImport, ReadsPlanFiles) {
   EXPECT_EQ(plan.unclaimed, Words());
 }
 
-// x and y; agents by number, as ITA-CBS2 writes them, and by name, as MGCBS does.
+// Coordinates as x and y. ITA-CBS2 names agents by number, MGCBS by name.
 const std::string kSchedule =
     "statistics:\n  cost: 10\n  runtime: 0.1\nschedule:\n"
     "  agent0:\n    - x: 0\n      y: 0\n      t: 0\n    - {x: 0, y: 0, t: 1}\n"
@@ -119,7 +119,7 @@ TEST_F(PlanImport, RefusesInvalidSchedulesWithThePlace) {
   EXPECT_NE(refused(replaced(kSchedule, "  cost: 10", "  cost: ten")), "accepted");
 }
 
-// Whatever the file claims, the costs are those of the paths.
+// Costs are computed from the paths, whatever the file claims.
 TEST_F(PlanImport, RecomputesCosts) {
   const auto recounted = [&](const std::string& text) {
     return read_and_recount(directory_.write("plan", text), mapf_);
@@ -133,7 +133,7 @@ TEST_F(PlanImport, RecomputesCosts) {
   EXPECT_EQ(recounted(kLists).claimed_cost, std::nullopt);
   EXPECT_EQ(recounted(kSchedule).claimed_cost, 10);
   EXPECT_FALSE(recounted(replaced(kText, "solved=1", "solved=0")).solution.plan);
-  // The bound of a plan file is only a claim, too.
+  // The bound of an imported plan is only an unchecked claim, too.
   Solution solution = read(kText).solution;
   solution.status = Status::kOptimal;
   solution.lower_bound = 10;
@@ -144,7 +144,7 @@ TEST_F(PlanImport, RecomputesCosts) {
   EXPECT_EQ(file.solution.status, Status::kFeasible);
 }
 
-// An exported plan is read back, and the order of its tasks is derived from its paths.
+// An exported plan can be imported; the order of tasks is derived from the paths.
 TEST_F(PlanImport, DerivesTheOrderOfTasks) {
   InstanceBuilder builder(testing::grid_of({"....", "...."}));
   builder.add_agent("to", {0, 0}, Position{3, 1});
@@ -161,7 +161,7 @@ TEST_F(PlanImport, DerivesTheOrderOfTasks) {
   Solution solution;
   solution.omega = Omega::infinite();
   solution.status = Status::kFeasible;
-  // "free" passes the task on which it ends.
+  // Agent "free" passes the task on which it later ends.
   solution.plan =
       Plan{12,
            {{6, {1, 0}, path({{0, 0}, {1, 0}, {1, 1}, {1, 0}, {2, 0}, {3, 0}, {3, 1}})},
@@ -233,7 +233,7 @@ TEST_F(PlanImport, RefusesInvalidFilesWithThePlace) {
   EXPECT_EQ(refused(" [1]"), "plan: /: found an array; expected a JSON object");
 }
 
-// A damaged file yields a plan or is refused.
+// Reading a damaged file either yields a plan or is refused.
 TEST_F(PlanImport, DamagedFilesAreReadOrRefused) {
   std::mt19937 random(1);
   int accepted = 0;

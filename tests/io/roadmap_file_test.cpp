@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files of roadmaps, of instances on them, and of their plans.
+// Tests files of roadmaps, of instances on them, and of their plans.
 #include "io/roadmap_file.h"
 
 #include <fmt/format.h>

@@ -101,7 +101,7 @@ TEST(SolverFiles, AreRefusedWithThePlaceIfInvalid) {
             "s.json: /: found neither a plan nor claims; expected one of plan, claims");
 }
 
-// The solver files of Grove are read as strictly.
+// The solver files that Grove provides are read with the same strict rules.
 TEST(SolverFiles, OfGroveAreValid) {
   int count = 0;
   for (const auto& item : std::filesystem::directory_iterator(GROVE_SOLVERS)) {

@@ -27,8 +27,7 @@ fuzz::TinyInstance tiny_instance(std::uint64_t seed) {
   return seed % 2 == 0 ? fuzz::random_instance(seed) : fuzz::random_world(seed);
 }
 
-// For every instance, expands 7 states per call. The bound rises to the oracle's optimum and never
-// exceeds it.
+// Expands 7 states per call. The bound rises to the oracle's optimum and never exceeds it.
 TEST(EpeaStar, AgreesWithTheOracle) {
   int solved = 0, infeasible = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(300));
@@ -61,8 +60,8 @@ TEST(EpeaStar, AgreesWithTheOracle) {
   EXPECT_GT(infeasible, 5);
 }
 
-// With a cutoff equal to the optimum no plan is found; with a cutoff one higher the optimum is
-// found.
+// With a cutoff equal to the optimum the search finds no plan; with a cutoff of optimum + 1 it
+// finds the optimum.
 TEST(EpeaStar, ProvesTheCutoff) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     SCOPED_TRACE(seed);
@@ -98,7 +97,7 @@ TEST(EpeaStar, RefusesTooManyJointStates) {
   EXPECT_TRUE(EpeaStar::make(instance, 40, kMaxBytes));
 }
 
-// Long enough that larger pattern databases are built during the search. kOptimum comes from a
+// The search runs long enough to build larger pattern databases on the way. kOptimum comes from a
 // search without them.
 TEST(EpeaStar, ContinuesWithLargerPatternDatabases) {
   constexpr Cost kOptimum = 78;

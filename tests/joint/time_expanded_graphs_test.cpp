@@ -23,7 +23,7 @@ constexpr std::size_t kMaxWays = 1500;
 constexpr std::size_t kPlenty = 30'000;
 constexpr std::size_t kMaxBytes = std::size_t{1} << 28;
 
-// A tiny random instance of any kind, and random constraints on its agents.
+// A tiny random instance of any kind, with random constraints on its agents.
 class Fuzzer {
  public:
   explicit Fuzzer(std::uint64_t seed)
@@ -45,7 +45,7 @@ class Fuzzer {
     return graph;
   }
 
-  // A constraint that `way` probably violates.
+  // Returns a constraint that `way` is likely to violate.
   Constraint constraint(const PlacePath& way) {
     const auto cost = static_cast<Time>(way.size()) - 1;
     const Time t = below(cost + 2);
@@ -87,7 +87,7 @@ class Fuzzer {
   TimeExpandedGraphs graphs_;
 };
 
-// An agent, its constraints, and all its paths that satisfy them and cost at most `max_cost`.
+// An agent with its constraints and all its paths that satisfy them and cost at most `max_cost`.
 struct Member {
   AgentIndex agent;
   Constraints constraints;
@@ -114,7 +114,7 @@ std::optional<Member> member(Fuzzer& fuzzer, AgentIndex agent, Time delta_f) {
   return m;
 }
 
-// The least cost of one agent under its constraints is that of the cheapest enumerated path.
+// The least cost of an agent under its constraints is the cost of the cheapest enumerated path.
 TEST(TimeExpandedGraphs, HaveTheLeastCostUnderConstraints) {
   int some = 0, none = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(300));
@@ -135,8 +135,8 @@ TEST(TimeExpandedGraphs, HaveTheLeastCostUnderConstraints) {
   EXPECT_GT(none, 10);
 }
 
-// Joint search of several agents under constraints finds the same optimum as enumeration, and its
-// bound never exceeds it.
+// Joint search for several agents under constraints finds the same optimum as enumeration, and its
+// bound never exceeds this optimum.
 TEST(TimeExpandedGraphs, LetJointSearchFindOptimumUnderConstraints) {
   int found = 0, none = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(500));

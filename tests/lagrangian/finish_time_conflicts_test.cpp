@@ -13,20 +13,21 @@ namespace {
 
 using Node = AgentGraph::Node;
 
-// Can both agents be at rest by these times without a collision at any time? Breadth-first search
-// of joint states.
+// Returns whether both agents can be at rest by these times without any collision. Uses
+// breadth-first search over joint states.
 bool can_both_finish(const AgentGraph& a, const AgentGraph& b, Time by_a, Time by_b) {
   if (a.place(0) == b.place(0)) return false;
   using Pairs = std::vector<std::pair<Node, Node>>;
   Pairs now{{AgentGraph::start(), AgentGraph::start()}};
   std::vector<Time> seen(a.count() * b.count(), -1);
-  // One more step than the later finish: coming to rest takes no time, but is a move.
+  // Runs one step beyond the later finish, because coming to rest is a move although it takes no
+  // time.
   for (Time time = 0; time <= std::max(by_a, by_b) + 1; ++time) {
     Pairs next;
     for (const auto& [from_a, from_b] : now)
       for (const auto& move_a : a.moves(from_a))
         for (const auto& move_b : b.moves(from_b)) {
-          // An agent that comes to rest in the step from t to t + 1 has finished at t.
+          // An agent that comes to rest in the step from t to t + 1 has finish time t.
           if (!a.rests(move_a.to) && time + 1 > by_a) continue;
           if (!b.rests(move_b.to) && time + 1 > by_b) continue;
           const Place to_a = a.place(move_a.to);
@@ -42,7 +43,8 @@ bool can_both_finish(const AgentGraph& a, const AgentGraph& b, Time by_a, Time b
   return false;
 }
 
-// Without limits in effect, exactly the pairs that cannot both finish are found incompatible.
+// With limits that are never reached, exactly the pairs that cannot both finish are found
+// incompatible.
 TEST(FinishTimeConflicts, AgreeWithJointBreadthFirstSearch) {
   int excluded = 0, others = 0;
   for (std::uint64_t seed = 1; seed <= 120; ++seed) {
@@ -70,8 +72,8 @@ TEST(FinishTimeConflicts, AgreeWithJointBreadthFirstSearch) {
   EXPECT_GT(others, 200);
 }
 
-// Pairs that are incompatible with sufficient limits: an MDD that is too large proves nothing, nor
-// does a joint search that is cut short.
+// These pairs are incompatible under sufficient limits. An MDD above its size limit proves nothing,
+// and neither does a joint search that was cut short.
 TEST(FinishTimeConflicts, ProveNothingWithoutEffort) {
   constexpr FinishTimeConflicts::MaxSizes kEnough{1 << 20, 1 << 20, 1 << 28};
   int excluded = 0;
@@ -87,7 +89,7 @@ TEST(FinishTimeConflicts, ProveNothingWithoutEffort) {
     const auto a = AgentGraph::make(known.instance, 0);
     const auto b = AgentGraph::make(known.instance, 1);
     if (!a || !b || a->count() == 0 || b->count() == 0) continue;
-    // Each agent has a path that finishes at its time of the pair.
+    // Each agent has a path that finishes at its time in the pair.
     const FinishTimePair pair{0, 1, a->to_go(AgentGraph::start()), b->to_go(AgentGraph::start())};
     if (!finds_incompatible(kEnough, pair)) continue;
     ++excluded;

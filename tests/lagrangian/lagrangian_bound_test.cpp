@@ -14,7 +14,7 @@
 namespace grove::detail::lagrangian_test {
 namespace {
 
-// Parameters that lead to steps of all sizes, including sizes that no sensible run would use.
+// Returns parameters that lead to steps of all sizes, including sizes unsuitable for real runs.
 Tuning wild_tuning(fuzz::Random& random) {
   Tuning tuning;
   tuning.lagrangian_level = random.pick<double>({0.01, 0.1, 1});
@@ -27,7 +27,8 @@ Tuning wild_tuning(fuzz::Random& random) {
 
 class LagrangianBoundTest : public ::testing::Test {
  protected:
-  // Returns the bound after `rounds` rounds. After each round the bound must not exceed `optimum`.
+  // Returns the bound after at most `rounds` rounds. After each round the bound must not exceed
+  // `optimum`.
   static Cost bound_of(TinyProblem& known, const Tuning& tuning, int rounds, Cost optimum) {
     const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);
     if (!bound) return 0;
@@ -50,7 +51,7 @@ class LagrangianBoundTest : public ::testing::Test {
   }
 };
 
-// The bound never exceeds the oracle's optimum, whatever steps the multipliers take.
+// The bound never exceeds the oracle's optimum, whatever steps the multipliers make.
 TEST_F(LagrangianBoundTest, IsNeverAboveTheOptimum) {
   int tried = 0, raised = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(400));
@@ -81,7 +82,7 @@ TEST_F(LagrangianBoundTest, RisesForAgentsThatMustPassEachOther) {
 }
 
 // A new dual solution comes from a round with the best bound, and its values add up to that bound.
-// It is not visible before commit().
+// It becomes visible only with commit().
 TEST_F(LagrangianBoundTest, HasTheDualSolutionOfItsBestRounds) {
   TinyProblem known(corridor());
   Tuning tuning;

@@ -35,7 +35,7 @@ RelaxedRow random_row(const World& world, int agents, fuzz::Random& random) {
   }
 }
 
-// A replica that has received all updates, at whatever times, has the same multipliers.
+// A replica that has received all updates, at any times, has the same multipliers.
 TEST(Multipliers, AreEqualInAReplicaThatReceivedAllUpdates) {
   std::int64_t changes = 0;
   for (std::uint64_t seed = 2; seed < 60; seed += 2) {
@@ -104,7 +104,7 @@ TEST(Multipliers, RefusesInvalidUpdates) {
   refuses({{row}, std::string{'\x00'}});          // a row without an amount
   refuses({{row}, std::string{'\x01', '\x02'}});  // no such row
   refuses({{row}, std::string{'\x00', '\x01'}});  // a negative multiplier
-  refuses({{row}, std::string(12, '\xff')});      // a number without an end
+  refuses({{row}, std::string(12, '\xff')});      // a number that does not end
 }
 
 }  // namespace

@@ -14,10 +14,10 @@ namespace grove::detail::lagrangian_test {
 namespace {
 
 using Amount = Penalties::Amount;
-constexpr Time kPenalized = 14;  // steps
-constexpr Time kHorizon = 200;   // after any useful finish of a tiny agent, waits included
+constexpr Time kPenalized = 14;  // no penalties from this time on
+constexpr Time kHorizon = 200;   // later than any useful finish of a tiny agent, waits included
 
-// Adds random penalties to arcs of this world, at random times before kPenalized.
+// Adds random penalties to arcs of the world, at random times before kPenalized.
 void penalize(Penalties& penalties, fuzz::Random& random) {
   const World& world = penalties.world();
   for (Time time = 1; time < kPenalized; ++time)
@@ -36,18 +36,18 @@ std::vector<Amount> random_on_finish(fuzz::Random& random) {
   return on_finish;
 }
 
-// Reference: dynamic programming over the graph of the agent's states, time step by time step.
+// Reference: dynamic programming over the graph of the agent's states, one time step after another.
 class Reference {
  public:
   Reference(const AgentGraph& graph, const Penalties& penalties, const std::vector<Amount>& finish)
       : graph_(graph), penalties_(penalties), finish_(finish) {}
 
-  // The least price of a path that respects the reservations of `others` and finishes at `latest`
-  // or earlier.
+  // Returns the least penalized cost of a path that respects the reservations of `others` and
+  // finishes at time `latest` or earlier.
   ScaledCost price(const ReservationTable& others, Time latest = kHorizon) const {
     constexpr ScaledCost kNo = PenalizedSearch::kMaxPenaltyCost;
     std::vector<ScaledCost> paid(graph_.count(), kNo);
-    std::vector<ScaledCost> moved(graph_.count(), kNo);  // if it arrived by a move
+    std::vector<ScaledCost> moved(graph_.count(), kNo);  // if the last step was a move
     if (graph_.count() == 0) return kNo;
     paid[AgentGraph::start()] = moved[AgentGraph::start()] = 0;
     ScaledCost least = kNo;
@@ -89,7 +89,7 @@ class Reference {
   const std::vector<Amount>& finish_;
 };
 
-// The price of a path, summed over its steps.
+// Returns the penalized cost of a path, summed over its steps.
 ScaledCost paid_by(const Path& path, const Penalties& penalties,
                    const std::vector<Amount>& on_finish) {
   const World& world = penalties.world();
@@ -126,7 +126,7 @@ TEST(PenalizedSearch, FindsTheLeastPrice) {
           least);
       ASSERT_FALSE(path.empty());
       ASSERT_EQ(paid_by(path, penalties, on_finish), least);
-      // No path costs less than the least price.
+      // No path has a lower penalized cost than the least one.
       Path none;
       EXPECT_EQ(search.search(goals, on_finish, least, 1 << 20, {}, &none), least);
       EXPECT_TRUE(none.empty());
@@ -136,7 +136,7 @@ TEST(PenalizedSearch, FindsTheLeastPrice) {
   EXPECT_GT(tried, 500);
 }
 
-// Improves paths around reservations of other agents, with a limit on the finish time.
+// Improves paths around the reservations of other agents, with a limit on the finish time.
 TEST(PenalizedSearch, ImprovesPathAroundReservations) {
   int improved = 0, infeasible = 0;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
@@ -177,7 +177,7 @@ TEST(PenalizedSearch, ImprovesPathAroundReservations) {
   EXPECT_GT(infeasible, 50);
 }
 
-// A search that reaches its label limit never returns more than the least price.
+// A search that reaches its label limit returns a lower bound on the least penalized cost.
 TEST(PenalizedSearch, IsNeverAboveTheLeastPriceWhenCutShort) {
   int cut_short = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {

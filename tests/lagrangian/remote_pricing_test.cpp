@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A Lagrangian bound with remote pricing, where replies may be late, invalid or missing.
+// Tests a Lagrangian bound with remote pricing. Replies can be late, invalid or missing.
 #include "lagrangian/remote_pricing.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ Tuning tuning_with_short_rounds(fuzz::Random& random) {
   return tuning;
 }
 
-// One process that computes prices for the bound, and its replies in transit.
+// A process that solves pricing problems for the bound, with its replies in transit.
 struct HelpingProcess {
   explicit HelpingProcess(TinyProblem& known)
       : help(known.instance), pricer(help.multipliers(), known.stops) {}
@@ -50,7 +50,7 @@ struct HelpingProcess {
   std::deque<PricingReply> answers;
 };
 
-// The bound and its helpers, simulated in one thread in random order.
+// The bound and its helper processes, simulated in one thread in random order.
 class Ascent {
  public:
   Ascent(TinyProblem& known, const Tuning& tuning, int helpers, fuzz::Random& random)
@@ -61,7 +61,8 @@ class Ascent {
     for (int i = 0; i < helpers; ++i) processes.emplace_back(known);
   }
 
-  // Performs one random event: a request, work of a helper, a reply, or work on the bound itself.
+  // Performs one random event: a request, a step of a helper, a reply, or a step of the bound
+  // itself.
   void step(Cost cutoff) {
     const int helper = random_.below(static_cast<int>(processes.size()));
     HelpingProcess& process = processes[static_cast<std::size_t>(helper)];
@@ -126,7 +127,7 @@ class OneHelper : public ::testing::Test {
       bound->commit(std::move(*job));
     }
   }
-  // Works until the bound requests pricing. Returns nullopt if it does not.
+  // Runs the bound until it requests pricing. Returns nullopt if it does not.
   std::optional<PricingRequest> ask() {
     for (int i = 0; i < 100; ++i) {
       auto asked = bound->dispatch_pricing();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tiny instances and their planning data, for the tests of the Lagrangian bound.
+// Tiny instances and their planning data for tests of the Lagrangian bound.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ inline Instance tiny_instance(std::uint64_t seed) {
   return (seed % 2 == 0 ? fuzz::random_instance(seed) : fuzz::random_world(seed)).build();
 }
 
-// Two agents that must pass each other in a corridor with one bay. The multipliers change for many
-// rounds.
+// Two agents that must pass each other in a corridor with one bay. The multipliers keep changing
+// for many rounds.
 inline Instance corridor() {
   // . . . . .
   // @ @ . @ @

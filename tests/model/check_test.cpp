@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each test changes a valid plan in one way that makes it invalid.
+// Tests of the checker. Most tests make one change that invalidates a valid plan.
 #include "model/check.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ constexpr Cell at(int x, int y) {
   return 5 * y + x;
 }
 
-// Costs 8 + 5 + 2 = 15; m waits one step.
+// Costs 8 + 5 + 2 = 15; m waits for one step.
 Solution valid_solution() {
   Plan plan;
   plan.cost = 15;
@@ -54,7 +54,7 @@ Solution valid_solution() {
   return solution;
 }
 
-// The only violation of the valid solution after `change`, as "place: message".
+// Returns the only violation in the valid solution after `change`, as "place: message".
 std::string verdict(const std::function<void(Solution&)>& change) {
   Solution solution = valid_solution();
   change(solution);
@@ -65,7 +65,7 @@ std::string verdict(const std::function<void(Solution&)>& change) {
   return text;
 }
 
-// The same for a change of one agent's plan.
+// Like verdict(change), but changes one agent's plan.
 std::string verdict(AgentIndex agent, const std::function<void(AgentPlan&)>& change) {
   return verdict([&](Solution& solution) { change(solution.plan->agents[agent]); });
 }
@@ -178,14 +178,14 @@ TEST(Check, RefusesAWrongEnd) {
 TEST(Check, RefusesJumps) {
   EXPECT_MENTIONS(verdict(0, [](AgentPlan& a) { a.path.erase(a.path.begin() + 1); }),
                   "/agents/0/path/1: agent 'a' jumps from [0, 0] to [2, 0]");
-  // From the right edge to the left edge of the next row: consecutive cell numbers, but not
-  // adjacent.
+  // From the right edge to the left edge of the next row: the cell numbers are consecutive, but the
+  // cells are not adjacent.
   EXPECT_MENTIONS(verdict(1,
                           [](AgentPlan& b) {
                             b.path = {at(4, 1), at(0, 2)};
                           }),
                   "jumps from [4, 1] to [0, 2]");
-  // Diagonally.
+  // A diagonal move.
   EXPECT_MENTIONS(verdict(2, [](AgentPlan& m) { m.path[1] = at(1, 0); }),
                   "jumps from [0, 1] to [1, 0]");
 }
@@ -202,7 +202,7 @@ TEST(Check, RefusesBlockedCellsAndCellsOutside) {
 TEST(Check, RefusesMissedTasks) {
   EXPECT_MENTIONS(verdict(0,
                           [](AgentPlan& a) {
-                            a.path.resize(5);  // stops at its goal before t1
+                            a.path.resize(5);  // ends at its goal before t1
                             a.cost = 4;
                           }),
                   "/agents/0/path: agent 'a' never visits its task 't1' on [4, 2]");
@@ -240,7 +240,8 @@ TEST(Check, AcceptsEndOfMgAgentOnlyOnItsLastTask) {
   EXPECT_EQ(violations[0].json_pointer, "/agents/0/sequence/1");
 }
 
-// Two agents on a 4 x 2 map without tasks; both paths begin and end where they should.
+// Returns the collision of two agents on a 4 x 2 map without tasks. Both paths start and end where
+// they should.
 std::string collision(const Path& first, const Path& second) {
   InstanceBuilder builder(Grid(4, 2, std::vector<bool>(8, true)));
   const Grid grid(4, 2, std::vector<bool>(8, true));

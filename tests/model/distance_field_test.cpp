@@ -34,7 +34,7 @@ TEST(DistanceFields, HoldsTasksAndDestinations) {
   EXPECT_EQ(fields.to_task(0)[3], 2);
 }
 
-// A corridor of `cells` cells, the second-last of which is a wall, with one task on its first cell.
+// A corridor of `cells` cells whose second-last cell is a wall, with one task on the first cell.
 Instance corridor(int cells) {
   std::vector<bool> passable(static_cast<std::size_t>(cells), true);
   passable[passable.size() - 2] = false;
@@ -44,7 +44,7 @@ Instance corridor(int cells) {
   return std::move(builder).build();
 }
 
-// The longest distance that fits in 16 bits is 65,534.
+// 65,534 is the longest distance that is stored in 16 bits.
 TEST(DistanceFields, AreExactForLongDistances) {
   for (const int cells : {65'536, 65'537, 65'538, 65'539, 140'000}) {
     const Instance instance = corridor(cells);
@@ -58,7 +58,7 @@ TEST(DistanceFields, AreExactForLongDistances) {
   }
 }
 
-// Enough tasks for several threads.
+// An instance with enough tasks for several threads.
 Instance many_tasks() {
   constexpr int kSide = 200;
   std::vector<bool> passable(kSide * kSide, true);

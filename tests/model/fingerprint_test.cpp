@@ -23,7 +23,7 @@ std::uint64_t of(const Rows& rows, const Agents& agents) {
 const Rows kRows{"...", ".@.", "..."};
 const Agents kAgents{{{0, 0}, Position{2, 0}, {{1, 0}, {0, 2}}}, {{0, 1}, {}, {{2, 2}}}};
 
-// Files of earlier versions must still match.
+// Fingerprints must still match those in files of earlier versions.
 TEST(Fingerprint, IsTheSameInEveryVersion) {
   EXPECT_EQ(of(kRows, kAgents), 9616560128765021026u);
 }

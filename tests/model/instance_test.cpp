@@ -16,7 +16,7 @@ InstanceBuilder builder() {
   return InstanceBuilder(Grid(4, 2, {true, true, true, true, false, true, true, true}));
 }
 
-// The field of the InstanceError that `act` throws; "nothing" if it throws nothing.
+// Returns the field of the InstanceError that `act` throws, or "nothing" if it throws none.
 std::string refused_field(const std::function<void()>& act) {
   try {
     act();
@@ -93,7 +93,7 @@ TEST(InstanceBuilder, AgentWithoutGoalsRestsAnywhere) {
   EXPECT_TRUE(instance.may_rest(0, 3));
 }
 
-// Of the tasks on one place that take no time, one represents all.
+// One stop represents all tasks on a place that take no time.
 TEST(InstanceBuilder, StopsRepresentAllTasksOnAPlace) {
   auto b = builder();
   b.add_agent("a", {0, 0}, Position{3, 0});

@@ -11,7 +11,7 @@
 namespace grove::detail {
 namespace job_memory_limit_test {
 
-// Files as the kernel shows them, in a directory that replaces the root.
+// Simulates files of the kernel in a directory that replaces the root.
 class JobMemoryLimit : public ::testing::Test {
  protected:
   void own_cgroups(const std::string& lines) { write("proc/self/cgroup", lines); }
@@ -42,7 +42,7 @@ TEST_F(JobMemoryLimit, ReturnsNulloptWithoutCgroups) {
   EXPECT_EQ(limit_in_bytes(), std::nullopt);
 }
 
-// In a container its own cgroup is the root.
+// A container sees its own cgroup as the root.
 TEST_F(JobMemoryLimit, ReturnsTheLimitOfTheContainer) {
   own_cgroups("0::/\n");
   limit("memory.max", "512000000");
@@ -70,7 +70,8 @@ TEST_F(JobMemoryLimit, ReadsCgroupsOfVersionOne) {
   EXPECT_EQ(limit_in_bytes(), 7000u);
 }
 
-// A container without its own cgroup namespace reads the host's path, which does not exist inside.
+// A container without its own cgroup namespace reads the path on the host, which does not exist
+// inside the container.
 TEST_F(JobMemoryLimit, FallsBackToTheRootForAPathOfTheHost) {
   own_cgroups("4:memory:/docker/0123\n");
   limit("memory/memory.limit_in_bytes", "8000");
@@ -86,7 +87,7 @@ constexpr std::uint64_t kMegabyte = 1 << 20;
 TEST_F(JobMemoryLimit, ReturnsTheMemoryOfTheSlurmJob) {
   environment_["SLURM_MEM_PER_NODE"] = "16384";
   EXPECT_EQ(limit_in_bytes(), 16384 * kMegabyte);
-  environment_["SLURM_MEM_PER_NODE"] = "0";  // all memory of the node
+  environment_["SLURM_MEM_PER_NODE"] = "0";  // means all memory of the node
   EXPECT_EQ(limit_in_bytes(), std::nullopt);
   environment_.clear();
   environment_["SLURM_MEM_PER_CPU"] = "500";

@@ -15,8 +15,8 @@ TEST(Omega, ZeroAcceptsOnlyTheBoundItself) {
 }
 
 TEST(Omega, IsExactWhereDoublesMayRound) {
-  // Costs at and above the threshold (1 + omega) * bound. In doubles this product may round below
-  // an integer: 1.15 * 100 is 114.99999999999999.
+  // Costs at or above the threshold (1 + omega) * bound. In double precision the product can round
+  // to a value below an integer: 1.15 * 100 is 114.99999999999999.
   EXPECT_TRUE(Omega::parse("0.15").accepts(115, 100));
   EXPECT_TRUE(Omega::parse("0.1").accepts(11, 10));
   EXPECT_TRUE(Omega::parse("0.1").accepts(33, 30));

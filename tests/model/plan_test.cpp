@@ -29,8 +29,8 @@ TEST(Status, NamesRoundTrip) {
   EXPECT_FALSE(parse_status("solved"));
 }
 
-// The agent executes both tasks at its start, in the middle of a turn. In the second plan it
-// executes one of them in the middle of a later turn, as a plan of another solver may do.
+// In the first plan the agent executes both tasks at its start, in the middle of a turn. In the
+// second plan it executes one of them in the middle of a later turn, as other solvers can do.
 TEST(WalkedPath, KeepsTheTaskExecutionsOfThePlan) {
   InstanceBuilder builder(Map(Grid(2, 1, {true, true})));
   builder.add_agent({.id = "a",

@@ -24,8 +24,8 @@ TEST(Random, DrawsEachNumberAboutEquallyOften) {
   for (int count : counts) EXPECT_NEAR(count, 10'000, 400);
 }
 
-// Without rejection, half of the numbers would fall into the lowest third: the 2^64 numbers are
-// four quarters, the bound is three of them, and the fourth would map to the lowest third as well.
+// The bound is three quarters of the 2^64 draws. Without rejection the draws in the fourth quarter
+// would map to the lowest third again, so that half of the results would lie in that third.
 TEST(Random, RejectsDrawsThatWouldFavorTheLowestNumbers) {
   constexpr std::uint64_t kBound = std::uint64_t{3} << 62;
   Random random(1);

@@ -15,7 +15,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAre;
 
-// A =3= B >2> C, and C >1> A. "=": both directions; ">": one direction; with the length in steps.
+// A =3= B >2> C, and C >1> A. "=": two-way; ">": one-way; the number is the length in steps.
 Roadmap triangle() {
   return Roadmap({{"A", {0, 0}}, {"B", {3, 0}}, {"C", {3, 4}}},
                  {{0, 1, 3, false}, {1, 2, 2, true}, {2, 0, 1, true}});

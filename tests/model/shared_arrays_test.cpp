@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// SharedArrays of several members. The members are threads here, each with its own SharedArrays
-// over one memory.
+// Tests SharedArrays with several members. Here the members are threads, each with its own
+// SharedArrays object on the same memory.
 #include "model/shared_arrays.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ namespace shared_arrays_test {
 
 using testing::ClockReadingLimit;
 
-// The shared memory of a host for its members. Only the bytes that must be zero are zero.
+// The shared memory of one host. Only the bytes that must initially be zero are zero.
 class Memory {
  public:
   explicit Memory(const ArrayLayout& layout)
@@ -52,7 +52,7 @@ class Memory {
   std::unique_ptr<std::byte[], Delete> begin_;
 };
 
-// Calls work(member) on a thread for each member.
+// Calls work(member) in parallel, with one thread per member.
 template <class Work>
 void by_members(int members, const Work& work) {
   std::vector<std::jthread> threads;
@@ -66,7 +66,7 @@ ArrayLayout layout_of(std::size_t arrays) {
   return {std::vector(arrays, kArrayBytes), {}, std::vector(arrays, kArrayBytes)};
 }
 
-// Fills slowly, so that a member that reads too early finds other bytes.
+// Fills the array slowly, so that a member that reads it too early sees other bytes.
 void fill(std::byte* begin, std::size_t number) {
   for (std::size_t i = 0; i < kArrayBytes; ++i) {
     begin[i] = static_cast<std::byte>(number * 31 + i);
@@ -177,12 +177,12 @@ TEST(SharedArrays, AwaitEndsWhenTheMakerIsUnresponsive) {
     may_end = true;
   });
   const auto* begin = memory.of(1, 2).array(ArrayKind::kDistances, 0).await(Limits());
-  ASSERT_NE(begin, nullptr);  // the array is available later
+  ASSERT_NE(begin, nullptr);  // the array becomes available
   EXPECT_TRUE(is_filled(begin, 0));
 }
 
-// A map of two rows of `width` cells with many tasks. If `width` exceeds 65,535, distances do not
-// fit in 16 bits.
+// Returns an instance on two rows of `width` cells with many tasks. Above a width of 65,535,
+// distances do not fit in 16 bits.
 Instance many_tasks(int width, int tasks) {
   InstanceBuilder builder(
       Grid(width, 2, std::vector<bool>(static_cast<std::size_t>(width) * 2, true)));

@@ -31,7 +31,7 @@ TEST(ThreadTeam, CallsWorkOnceOnEachThreadInEveryRound) {
   }
 }
 
-// Ends only if all threads run the work concurrently.
+// Terminates only if all threads execute the work concurrently.
 TEST(ThreadTeam, RunsItsThreadsConcurrently) {
   ThreadTeam team(4);
   std::barrier barrier(4);

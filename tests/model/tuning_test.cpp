@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parsing of tunables. tests/structure checks that each one is used, and tests/fuzz that no value
-// leads to a wrong answer.
+// Tests the parsing of tunables. tests/structure checks that each tunable is used, and tests/fuzz
+// that no value leads to a wrong answer.
 #include "model/tuning.h"
 
 #include <fmt/format.h>

@@ -96,7 +96,7 @@ TEST(BoundBroadcast, SendRateFallsWithTheRun) {
   const auto bytes_sent_in_a_second_after = [&](double begin) {
     BoundBroadcast broadcast(0, 2, kRate);
     add_bounds(2000, broadcast);
-    broadcast.due(begin);  // uses up the allowance accumulated before
+    broadcast.due(begin);  // uses up the accumulated allowance
     double bytes_sent = 0;
     for (double now = begin; now < begin + 1; now += 1e-3) {
       add_bounds(10, broadcast);
@@ -110,7 +110,8 @@ TEST(BoundBroadcast, SendRateFallsWithTheRun) {
   EXPECT_NEAR(bytes_sent_in_a_second_after(100), kRate / 100, kRate / 500);
 }
 
-// At any rate: a bound that is too long now is sent later, or does not delay the others.
+// A bound that is too long for the current rate is sent later or never, and does not delay the
+// others.
 TEST(BoundBroadcast, IsNotDelayedByALongBound) {
   for (const int constraints : {150, 20'000}) {
     BoundBroadcast broadcast(0, 2, 1e6);
@@ -127,7 +128,7 @@ TEST(BoundBroadcast, IsNotDelayedByALongBound) {
   }
 }
 
-// If too many bounds wait, those of the least utility are dropped.
+// If too many bounds are waiting, those with the least utility are dropped.
 TEST(BoundBroadcast, LimitsTheNumberOfWaitingBounds) {
   BoundBroadcast broadcast(0, 2, kPlenty);
   for (int i = 0; i < 30; ++i) add_bounds(1000, broadcast);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Checks that a checkpoint found to be damaged when ranks already search ends the job at once."""
+"""Checks that the job ends immediately if a checkpoint proves to be damaged when some ranks already search."""
 
 import os
 from pathlib import Path
@@ -27,7 +27,7 @@ class DamagedCheckpoint(unittest.TestCase):
             self.assertEqual(first.returncode, 0, first.stderr)
             file = folder / "state" / "checkpoint.grove"
             content = bytearray(file.read_bytes())
-            content[-1] ^= 1  # the last checksum, which is read after all nodes
+            content[-1] ^= 1  # the last checksum, which is read only after all nodes
             file.write_bytes(content)
             resumed = solve(folder, "--resume", "auto")
             self.assertEqual(resumed.returncode, 2, resumed.stderr)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests grove-mpi as users run it, by mpirun."""
+"""Tests grove-mpi as users run it, under mpirun."""
 import contextlib
 import csv
 import json
@@ -20,7 +20,7 @@ from waiting import progress_of, state_of, text_of, wait_until
 
 EASY = DATA / "rooms-32x32_n10_m30.cts.json"
 ONE_WAY = DATA / "yard.cts.json"
-ENDLESS = 60, 100, 3  # agents, tasks, seed: the gap stays at 9 % for long
+ENDLESS = 60, 100, 3  # agents, tasks, seed of an instance with a gap of 9 % for a long time
 
 
 def end_process(process):
@@ -35,7 +35,7 @@ class Program(MpiTest):
         self.folder = Path(folder.name)
 
     def generate(self, agents, tasks, seed):
-        """Generates an instance on the map with rooms and returns its path."""
+        """Generates an instance on the map rooms-32x32 and returns its path."""
         path = self.folder / "generated.cts.json"
         self.run_well([GROVE, "generate", "instance", "--map", DATA / "rooms-32x32.map", "--agents",
                        agents, "--tasks", tasks, "--seed", seed, "-o", path])
@@ -47,7 +47,7 @@ class Program(MpiTest):
         return output
 
     def refuses(self, command, *texts):
-        """Asserts exit code 2 and exactly one error message, which contains `texts`."""
+        """Asserts that the command exits with code 2 and prints exactly one error message, which contains `texts`."""
         code, output = run(command, self.folder)
         self.assertEqual(code, 2, output)
         complaints = [line for line in output.splitlines() if line.startswith("grove-mpi: error:")]
@@ -59,7 +59,8 @@ class Program(MpiTest):
         return plan_of(self.folder / "plan.json")
 
     def searching_ranks(self, running, count=3):
-        """Waits until all `count` ranks search and returns {rank: process id}. The processes end with the test."""
+        """Waits until all `count` ranks search and returns {rank: process id}. The processes are killed after the
+        test."""
         self.addCleanup(running.kill)
 
         def all_search():
@@ -72,12 +73,12 @@ class Program(MpiTest):
         return ranks
 
     def stop(self, process):
-        """Stops a process by SIGSTOP."""
+        """Stops a process with SIGSTOP and waits until it is stopped."""
         os.kill(process, signal.SIGSTOP)
         wait_until("the process is stopped", lambda: state_of(process) == "T")
 
     def interrupt_all(self, running, ranks):
-        """Interrupts all ranks, asserts exit code 0 and returns the output. (A signal to mpirun would make it
+        """Interrupts all ranks, asserts exit code 0 and returns the output. (A signal to mpirun would make mpirun
         report a failure.)"""
         for process in ranks.values():
             os.kill(process, signal.SIGTERM)
@@ -88,7 +89,7 @@ class Program(MpiTest):
 
 class Help(Program):
     def test_help_needs_no_mpi(self):
-        """Runs without mpirun, and with a transport that does not exist, so that MPI_Init would fail."""
+        """Runs the program without mpirun and with a nonexistent transport, so that MPI_Init would fail."""
         variables = {"PATH": "/nonexistent", "OMPI_MCA_btl": "nonexistent", "OMPI_MCA_pml": "nonexistent"}
         for words in (["--help"], ["--version"], ["help", "solve"], ["solve", "-h"], ["help", "--completion", "bash"]):
             asked = start([GROVE_MPI, *words], self.folder, **variables)
@@ -106,7 +107,7 @@ class Help(Program):
 
 class Answers(Program):
     def test_optimum_is_found_by_any_number_of_ranks_and_threads(self):
-        instance = self.generate(16, 20, 5)  # some thousands of nodes
+        instance = self.generate(16, 20, 5)  # takes some thousands of nodes
         self.run_well([GROVE, "solve", instance, "--omega", 0, "--output", "plan.json"])
         cost = self.plan()["cost"]
         for ranks, threads in [(1, 1), (2, 1), (3, 1), (4, 1), (2, 2)]:
@@ -237,7 +238,7 @@ class Files(Program):
         instance = self.generate(*ENDLESS)
         running = start(mpirun(2, "solve", instance, "--omega", 0, "--threads", 1, "--checkpoint", "kept",
                                "--quiet"), self.folder)
-        ranks = self.searching_ranks(running, 2)  # a searching run has locked the folder
+        ranks = self.searching_ranks(running, 2)  # a searching run holds the lock of the folder
         self.refuses(mpirun(2, "solve", instance, "--checkpoint", "kept", "--resume", "never",
                             "--output", "other.json"),
                      "kept/checkpoint.lock: is locked by another run (process ", " on host ")
@@ -249,7 +250,7 @@ class Checkpoints(Program):
         return ["solve", EASY, "--omega", 0, "--checkpoint", "kept", "--output", "plan.json", *more]
 
     def test_grove_and_grove_mpi_resume_from_each_other(self):
-        instance = self.generate(18, 30, 8)  # many seconds
+        instance = self.generate(18, 30, 8)  # takes many seconds
         arguments = ["solve", instance, "--omega", 0, "--threads", 1, "--checkpoint", "kept",
                      "--resume", "auto", "--output", "plan.json"]
         bounds = []
@@ -292,7 +293,7 @@ class Checkpoints(Program):
     def test_sigusr1_writes_a_checkpoint(self):
         running = start(mpirun(2, "solve", self.generate(*ENDLESS), "--omega", 0, "--threads", 1,
                                "--checkpoint", "kept"), self.folder)
-        ranks = self.searching_ranks(running, 2)  # mpirun forwards no signal before its ranks run
+        ranks = self.searching_ranks(running, 2)  # mpirun forwards signals only once its ranks run
         self.assertFalse((self.folder / "kept/checkpoint.grove").exists())
         running.send_signal(signal.SIGUSR1)
         wait_until("a checkpoint", (self.folder / "kept/checkpoint.grove").exists, running)
@@ -319,7 +320,7 @@ class Faults(Program):
         self.run_well([GROVE, "check", instance, "plan.json"])
 
     def check_end_without_rank(self, stopped, instance, more):
-        """Asserts that a search with a permanently stopped rank ends when it is interrupted."""
+        """Asserts that an interrupted search ends although one rank remains stopped."""
         running = start(mpirun(3, "solve", instance, "--omega", 0, "--threads", 1, "--log", "log",
                                "--output", "plan.json", *more), self.folder)
         ranks = self.searching_ranks(running)
@@ -328,7 +329,7 @@ class Faults(Program):
         os.kill(ranks[0], signal.SIGTERM)
         output, _ = running.communicate()
         plan = self.plan()
-        self.assertIn(plan["stats"]["unresponsive_ranks"], (1, 2))  # another rank may respond late
+        self.assertIn(plan["stats"]["unresponsive_ranks"], (1, 2))  # a further rank can respond late
         self.assertGreater(plan["lower_bound"], 0)
         self.assertRegex(output, "[12] of 3 ranks did not respond at shutdown")
         self.assertEqual("without a certificate" in output, bool(more), output)
@@ -336,13 +337,13 @@ class Faults(Program):
         (self.folder / "plan.json").unlink()
 
     def test_interrupted_search_ends_with_an_unresponsive_rank(self):
-        """Checks that the job ends with what is proven. (tests/mpi/protocol_test.cpp checks how soon.)"""
+        """Checks that the job reports what has been proven. (tests/mpi/protocol_test.cpp checks how soon it ends.)"""
         instance = self.generate(*ENDLESS)
         for stopped, more in ((1, []), (2, ["--checkpoint", "saved", "--resume", "never", "--proof", "proof.zst"])):
             self.check_end_without_rank(stopped, instance, more)
 
     def test_job_ends_when_rank_0_is_unresponsive(self):
-        """Checks that the other ranks end the job."""
+        """Checks that the other ranks end the job without an answer."""
         instance = self.generate(*ENDLESS)
         limit = 2
         while True:
@@ -351,7 +352,7 @@ class Faults(Program):
             try:
                 self.stop(self.searching_ranks(running)[0])
                 break
-            except AssertionError:  # on a busy machine the limit may be reached before all ranks search
+            except AssertionError:  # on a busy machine the job can end before all ranks search
                 running.communicate()
                 self.assertLess(limit, 100)
                 limit *= 4
@@ -361,12 +362,12 @@ class Faults(Program):
 
 
 class Memory(Program):
-    """Tests of the memory that the ranks of a host share by MPI windows: distances and tables."""
+    """Tests the memory that the ranks of a host share through MPI windows, for distances and sequence tables."""
 
-    WITHOUT = ["--mca", "osc", "^sm"]  # only this component of Open MPI provides shared windows
+    WITHOUT = ["--mca", "osc", "^sm"]  # disables the only component of Open MPI that provides shared windows
 
     def large(self):
-        """Generates an instance whose memory is mostly 118 MB of distances."""
+        """Generates an instance for which most of the memory, 118 MB, holds distances."""
         self.run_well([GROVE, "generate", "map", "random", "--width", 256, "--height", 256,
                        "--obstacles", "0.1", "--seed", 1, "-o", "large.map"])
         self.run_well([GROVE, "generate", "instance", "--map", "large.map", "--agents", 300,
@@ -377,7 +378,8 @@ class Memory(Program):
         return [command[0], *options, *command[1:]]
 
     def memory_of_ranks(self, ranks, instance, options):
-        """Returns the memory of all ranks together, in bytes, when all search, and the output."""
+        """Returns the total memory of the ranks in bytes, measured when all of them search, and the output of the
+        job."""
         running = start(self.with_mca(options, mpirun(ranks, "solve", instance, "--omega", 0, "--threads", 1)),
                         self.folder)
         processes = self.searching_ranks(running, ranks)
@@ -418,7 +420,7 @@ class Memory(Program):
             self.assertEqual(found, found[:1] * 3)
 
     def test_too_small_shared_memory_is_reported(self):
-        """Checks a small /dev/shm, as a container has."""
+        """Checks the warning for a small /dev/shm, as in a container."""
         instance = self.large()
         if os.geteuid() != 0:
             self.skipTest("only root can mount a small /dev/shm")
@@ -479,7 +481,7 @@ class Batches(Program):
         for name, row in rows.items():
             self.assertEqual((row["status"], row["solved"]), ("optimal", "true"))
             self.assertEqual((row["map"], row["problem"], row["agents"]), ("rooms-32x32", "cts", "4"))
-            # The options are quoted, so that a spreadsheet does not read them as a formula.
+            # The options are quoted, because a spreadsheet would otherwise read them as a formula.
             self.assertEqual((row["method"], row["options"]), ("auto", "'--omega 0 --ranks-per-instance 2"))
             self.run_well([GROVE, "check", folder / f"{name}.cts.json",
                            self.folder / "results" / row["plan_file"]])

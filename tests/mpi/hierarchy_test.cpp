@@ -26,7 +26,8 @@ TEST(Hierarchy, HasMinimalLevelsAndChildren) {
   EXPECT_EQ(shape(8, 2), std::pair(3, 2));
 }
 
-// Each endpoint except the top has one parent, and is exactly once among the parent's children.
+// Each endpoint except the top has exactly one parent, and occurs exactly once among the parent's
+// children.
 TEST(Hierarchy, EveryEndpointHasOneParent) {
   for (const int ranks : {1, 2, 3, 7, 8, 9, 26, 64, 100, 1000})
     for (const int most : {2, 3, 5, 64}) {

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Kills a distributed solve at random moments and resumes it from its checkpoint until it ends, each time with
-another number of ranks. The answer must be that of an undisturbed run. With --script cluster/preempt.sbatch
-resumes it, with three ranks and with mpirun in place of srun.
+"""Kills a distributed solve at random times and resumes it from its checkpoint until it ends, each time with a
+different number of ranks.
+
+The answer must be the same as in an undisturbed run. With --script, cluster/preempt.sbatch resumes the solve, with
+three ranks and with mpirun as a replacement for srun.
 
     kill_and_resume.py [--kills N] [--seed S] [--most-seconds T] [--script] INSTANCE
 
@@ -38,8 +40,10 @@ def undisturbed(instance, folder):
 
 
 def kill_a_rank(running, dice, checkpoint, most_seconds):
-    """Kills a random rank at most `most_seconds` after all ranks have begun to search; with None, when they have
-    written a checkpoint. (If a rank is killed while it connects, mpirun of Open MPI 4 may wait for ever.)"""
+    """Kills a random rank up to `most_seconds` after all ranks search. If `most_seconds` is None, kills it after the
+    next checkpoint instead.
+
+    (If a rank is killed while it connects, mpirun of Open MPI 4 can hang.)"""
     before = written_at(checkpoint)
     ranks = {}
 
@@ -55,7 +59,7 @@ def kill_a_rank(running, dice, checkpoint, most_seconds):
         try:
             os.kill(dice.choice(sorted(ranks.values())), signal.SIGKILL)
         except ProcessLookupError:
-            pass  # the rank has just ended
+            pass  # the rank has just ended by itself
 
 
 def written_at(file):
@@ -63,13 +67,13 @@ def written_at(file):
 
 
 def lost(log):
-    """Returns how often the script has reported a lost rank."""
+    """Returns the number of times that the script reported a lost rank."""
     return text_of(log).count("A rank was lost")
 
 
 def disturbed_script(instance, folder, kills, dice, most_seconds):
-    """Kills ranks of one run of the job script, which restarts itself. Returns the final plan and the number of
-    killed ranks."""
+    """Kills ranks during one run of the job script, which restarts the solve by itself. Returns the final plan and
+    the number of killed ranks."""
     (folder / "bin").mkdir()
     (folder / "bin/srun").write_text(SRUN, encoding="utf-8")
     (folder / "bin/srun").chmod(0o755)
@@ -92,7 +96,7 @@ def disturbed_script(instance, folder, kills, dice, most_seconds):
 
 
 def disturbed(instance, folder, kills, dice, most_seconds):
-    """Returns the final plan and the number of runs that were killed before it."""
+    """Returns the final plan and the number of runs that were killed before it was found."""
     killed = 0
     while True:
         ranks = dice.choice([1, 2, 3, 4])

@@ -8,7 +8,7 @@
 namespace grove::detail {
 namespace load_balancer_test {
 
-// Each rank is a child of its own.
+// Returns one group for each rank, which contains only that rank.
 std::vector<std::vector<int>> single_ranks(int ranks) {
   std::vector<std::vector<int>> children;
   for (int rank = 0; rank < ranks; ++rank) children.push_back({rank});

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Provides helpers for the tests of grove-mpi. The environment variables GROVE_MPI and GROVE name the programs."""
+"""Provides helpers for tests of grove-mpi. The environment variables GROVE_MPI and GROVE name the programs."""
 import json
 import os
 import subprocess
@@ -12,7 +12,7 @@ DATA = Path(__file__).resolve().parents[2] / "benchmarks/data"
 GROVE = os.environ.get("GROVE", "")
 GROVE_MPI = os.environ.get("GROVE_MPI", "")
 
-# Containers run as root, and tests start more ranks than there are cores.
+# Containers run as root, and Open MPI then requires these variables.
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 
@@ -23,7 +23,7 @@ def mpirun(ranks, *command):
 
 
 def run(command, folder):
-    """Returns the exit code and the output of both streams."""
+    """Runs a command and returns its exit code and combined output."""
     done = subprocess.run([str(word) for word in command], cwd=folder, env=ENVIRONMENT,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return done.returncode, done.stdout
@@ -39,7 +39,7 @@ def plan_of(path):
 
 
 def memory_of(pid):
-    """Returns the proportional set size of a process in bytes, or 0 if it has ended."""
+    """Returns the proportional set size of a process in bytes, or 0 if the process has ended."""
     try:
         rollup = Path(f"/proc/{pid}/smaps_rollup").read_text(encoding="utf-8")
     except OSError:
@@ -48,8 +48,8 @@ def memory_of(pid):
 
 
 def processes_of(process):
-    """Returns {rank: process id} of the ranks that this mpirun, or one below this process, has started on this
-    machine."""
+    """Returns {rank: process id} of the ranks on this machine that `process`, an mpirun or one of its ancestors, has
+    started."""
     pids = subprocess.run(["pgrep", "--parent", str(process.pid if isinstance(process, subprocess.Popen) else process)],
                           capture_output=True, text=True).stdout.split()
     ranks = {}
@@ -63,7 +63,7 @@ def processes_of(process):
     return ranks
 
 
-THREADS_OF_MPI = 3  # of a rank before its first search thread: the communication thread, and two of Open MPI
+THREADS_OF_MPI = 3  # threads of a rank before its search threads start: the communication thread and two of Open MPI
 
 
 def searches(pid):

@@ -12,7 +12,7 @@
 
 namespace grove::detail::testing {
 
-// A transport of one rank that records sent messages and delivers nothing. One thread at a time.
+// A transport of one rank that records sent messages and delivers none. One thread at a time.
 class Outbox : public Transport {
  public:
   Outbox(int rank, int ranks) : rank_(rank), ranks_(ranks) {}
@@ -20,7 +20,7 @@ class Outbox : public Transport {
   int ranks() const override { return ranks_; }
   std::optional<ReceivedMessage> receive() override { return std::nullopt; }
 
-  // Returns all messages sent since the last call, in order, and removes them.
+  // Removes and returns all messages sent since the last call, in order.
   std::vector<message::Message> take() {
     std::vector<message::Message> all;
     for (const auto& [receiver, bytes] : std::exchange(sent_, {}))
@@ -28,7 +28,7 @@ class Outbox : public Transport {
     return all;
   }
 
-  // Returns the messages of one kind that were sent to rank `to` and not removed by take().
+  // Returns the messages of type `Kind` sent to rank `to` that take() has not removed yet.
   template <class Kind>
   std::vector<Kind> sent(int to) const {
     std::vector<Kind> all;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Replies of one party of the protocol to given messages of the others: cases that random schedules
-// rarely reach.
+// Tests the replies of one party of the protocol to given messages from the others, in cases that
+// random schedules rarely reach.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -45,13 +45,14 @@ struct Setting {
   std::deque<SingleTree> forests;
 };
 
-// Rank 1 of three, which receives the messages of the test.
+// Rank 1 of three ranks. It receives only the messages that the test passes to it.
 struct IsolatedRank : Setting {
   Outbox transport{1, 3};
   Rank rank{problem, options, limits, transport, stops};
   double now = 0;
 
-  // Returns the last status that the rank has sent after this message, or an empty status.
+  // Returns the last status that the rank sends in response to this message; empty if it sends
+  // none.
   message::Status status_after(int from, message::Message message) {
     rank.handle(from, std::move(message));
     rank.send_updates(now += 10);
@@ -254,8 +255,7 @@ TEST(IsolatedCoordinator, EndsWithoutUnresponsiveRanksAfterALimit) {
   const auto wait = [&] { clock.advance(milliseconds(701)); };
   wait();
   EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0);
-  coordinator.handle(
-      1, message::SnapshotTaken{});  // counts: before a limit the checkpoint is not abandoned
+  coordinator.handle(1, message::SnapshotTaken{});  // counts: not abandoned before a limit
   s.limits.stop(StopReason::kTime);
   EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0) << "a message of rank 1 has just arrived";
   clock.advance(milliseconds(699));
@@ -296,14 +296,14 @@ TEST(IsolatedCoordinator, MeasuresUnresponsivenessFromTheLimit) {
   }
 }
 
-// Nine ranks in groups of three: the sub-coordinator of ranks 3, 4 and 5, on rank 3, which receives
-// the messages of the test.
+// The sub-coordinator for ranks 3, 4 and 5, which runs on rank 3 of nine ranks in groups of three.
+// It receives only the messages that the test passes to it.
 struct SubCoordinatorOfThree {
   Outbox transport{3, 9};
   SubCoordinator sub{transport, Hierarchy(9, 3), 1, Tuning()};
   double now = 0;
 
-  // Returns the last status that the parent has received after this message.
+  // Returns the last status sent to the parent in response to this message.
   message::Status status_after(int from, message::Message message) {
     sub.handle(from, std::move(message));
     sub.send_updates(now += 10);

@@ -15,8 +15,8 @@
 namespace grove::detail::testing {
 namespace {
 
-constexpr double kTick = 1e-4;    // s, about the duration of a step
-constexpr int kLongQuiet = 3000;  // steps of a rank; longer than any status or new tree is delayed
+constexpr double kTick = 1e-4;    // s, approximate duration of a step
+constexpr int kLongQuiet = 3000;  // steps per rank, longer than the delay of any status or new tree
 
 using Rng = std::mt19937_64;
 
@@ -24,13 +24,14 @@ bool chance(Rng& random, int percent) {
   return static_cast<int>(random() % 100) < percent;
 }
 
-// A worker whose work items are split into parts, so that other events may come between them.
+// A worker whose work items are split into three steps, so that other events can occur between
+// them.
 struct SlowWorker : Worker {
   using Worker::Worker;
   std::optional<Worker::WorkItem> turn;
   bool performed = false;
 
-  // Returns false if there was nothing to do.
+  // Returns false if there is no work item.
   bool step() {
     if (!turn) {
       turn = choose();
@@ -60,9 +61,9 @@ struct Disturbances {
     return values[random() % values.size()];
   }
 
-  int talk;            // polls for messages, in percent of the steps
-  int freeze_once_in;  // steps
-  int freeze_on_news;  // percent
+  int talk;            // percentage of steps in which a process polls for messages
+  int freeze_once_in;  // mean number of steps between freezes
+  int freeze_on_news;  // probability of a freeze after a received message, in percent
   int longest_freeze;  // steps
 };
 
@@ -81,7 +82,7 @@ struct Process {
     bool worked = false;
   };
 
-  // Does one of the things that this process can do next.
+  // Performs a random step that this process can make.
   Done step(Rng& random, const Disturbances& disturbances, double now) {
     if (finished || chance(random, disturbances.talk))
       return {member.exchange_messages(now), false};
@@ -108,15 +109,15 @@ struct Process {
   std::int64_t frozen_until = 0;
 };
 
-// Each link has its own delay: a message between two ranks may be overtaken by later messages that
-// both send to the coordinator.
+// Returns a random delay for each link. A message between two ranks can be overtaken by later
+// messages that both of them send to the coordinator.
 SimulatedNetwork::DelayModel random_delays(Rng& random, int ranks) {
   const std::vector<double> paces{0, 1, 10, 100, 3000, 20'000};
   const double usual = paces[random() % 4];
   std::vector<double> typical;
   for (int link = 0; link < ranks * ranks; ++link)
     typical.push_back(kTick * (chance(random, 70) ? usual : paces[random() % paces.size()]));
-  if (chance(random, 30))  // rank 0 reaches one rank much later than the others
+  if (chance(random, 30))  // rank 0 reaches one rank much later than others
     typical[random() % static_cast<std::size_t>(ranks)] = kTick * 1000;
   return [&random, typical, ranks](int from, int to, std::size_t) {
     const double most = typical[static_cast<std::size_t>(from * ranks + to)];
@@ -163,7 +164,7 @@ Solution solve_in_random_order(const Instance& instance, const SolveOptions& opt
     Process& process = processes[random() % processes.size()];
     if (process.frozen_until > counts.steps) continue;
     const auto done = process.step(random, disturbances, network.now());
-    const bool is_calm = counts.steps > schedule.max_steps / 4;  // otherwise few runs would end
+    const bool is_calm = counts.steps > schedule.max_steps / 4;  // otherwise few runs would finish
     if (!is_calm &&
         (static_cast<int>(random() % static_cast<unsigned>(disturbances.freeze_once_in)) == 0 ||
          (done.received && chance(random, disturbances.freeze_on_news))))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// When and how a rank reports the nodes that it holds.
+// Tests when and how a rank reports its nodes.
 #include "mpi/rank.h"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@
 namespace grove::detail {
 namespace rank_test {
 
-// A rank that has received the root of a tree, and an incumbent that costs `excess` more than its
-// bound (none if excess < 0).
+// A rank that has received the root of a tree and, if excess >= 0, an incumbent whose cost exceeds
+// the root's bound by `excess`.
 class RankWithRoot {
  public:
   RankWithRoot(Omega omega, Cost excess)
@@ -40,7 +40,7 @@ class RankWithRoot {
     rank_.handle(0, message::Incumbent{plan});
   }
 
-  // Returns the status that the rank sends at that time, or nullopt if it sends none.
+  // Returns the status that the rank sends at time `now`, or nullopt if it sends none.
   std::optional<message::Status> send_updates(double now) {
     rank_.send_updates(now);
     std::optional<message::Status> reported;
@@ -48,7 +48,7 @@ class RankWithRoot {
       if (const auto* status = std::get_if<message::Status>(&message)) reported = *status;
     return reported;
   }
-  // Returns false if no node is left.
+  // Expands one node. Returns false if there is no node left.
   bool expand() {
     SharedSearch& search = rank_.search();
     const NodePtr node = search.take();
@@ -64,7 +64,7 @@ class RankWithRoot {
   static SolveOptions with(Omega omega) {
     SolveOptions options;
     options.omega = omega;
-    options.techniques = {};  // many nodes
+    options.techniques = {};  // plain CBS, for many nodes
     return options;
   }
 

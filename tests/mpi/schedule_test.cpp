@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The protocol under random delays, slow ranks and unresponsive ranks, compared with exhaustive
+// Tests the protocol under random delays, slow ranks and unresponsive ranks against an exhaustive
 // search: the bound is valid after every step, and the answer is the optimum.
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Problems that several ranks build together, with threads in place of ranks. They equal a problem
-// that one rank builds, and lie in shared memory.
+// Tests problems that several ranks build together; here the ranks are threads. Such a problem lies
+// in shared memory and equals a problem that one rank builds alone.
 #include "mpi/shared_problem.h"
 
 #include <gtest/gtest.h>
@@ -22,8 +22,8 @@
 namespace grove::detail {
 namespace shared_problem_test {
 
-// Memory like that of an MPI window: common to all members, aligned, and zero only at the
-// beginning.
+// Memory that resembles an MPI window: common to all members, aligned, with only the first bytes
+// zero.
 struct Host {
   Host(std::size_t bytes, std::size_t zero_bytes)
       : size(bytes), memory(static_cast<std::byte*>(::operator new(bytes, kAligned))) {
@@ -48,7 +48,7 @@ class Part : public SharedMemory {
   }
 };
 
-// Returns the first difference from a problem that one rank built, or an empty string.
+// Returns the first difference from a problem that one rank built alone, or an empty string.
 std::string difference(const Problem& shared, const Problem& alone) {
   const Instance& instance = alone.instance;
   const State states = instance.world().state_count();
@@ -89,7 +89,7 @@ std::string difference(const Problem& shared, const Problem& alone) {
   return "";
 }
 
-// Compares problems that `members` members build concurrently.
+// Compares the problems that `members` members build concurrently with an unshared one.
 void expect_same(const Instance& instance, int members, const std::string& which) {
   const ArrayLayout layout = array_layout(instance);
   const Host host(SharedArrays::bytes(layout), SharedArrays::zero_bytes(layout));
@@ -119,7 +119,8 @@ TEST(SharedProblem, EqualsUnsharedProblemOfAnyWorld) {
                 std::to_string(seed));
 }
 
-// Twenty stops are too many for a sequence table; fourteen are not.
+// Agent a has twenty stops, too many for a sequence table. Agent b has fourteen, which are few
+// enough.
 Instance agents_with_many_stops() {
   InstanceBuilder builder(Grid(30, 30, std::vector<bool>(900, true)));
   builder.add_agent("a", {0, 0}, Position{29, 29});
@@ -162,7 +163,7 @@ TEST(SharedProblem, IsLocalWithoutSharedMemory) {
   const SharedMemory none;
   const SharedProblem problem(instance, Limits(), 1, none);
   EXPECT_EQ(difference(problem.problem(), Problem(instance, Limits())), "");
-  EXPECT_EQ(SharedProblem::need(instance).bytes, 0U);  // it is small
+  EXPECT_EQ(SharedProblem::need(instance).bytes, 0U);  // too small to be shared
 }
 
 }  // namespace shared_problem_test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Simulated runs: with one rank they expand the same nodes as a real run, the answer does not
-// depend on the number of ranks or the machine, and the figures are consistent.
+// Tests simulated runs. With one rank a simulated run expands the same nodes as a real run, the
+// answer does not depend on the number of ranks or the machine, and the statistics are consistent.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace simulator_test {
 
 using testing::random_crowd;
 
-// An instance for which plain CBS needs many nodes, and its optimal solution.
+// An instance for which plain CBS needs many nodes, with its optimal solution.
 struct Case {
   Instance instance;
   Solution truth;
@@ -173,7 +173,7 @@ TEST(Simulator, StatisticsAreConsistent) {
                               SimulatedRun::kParts;
       EXPECT_NEAR(profiled, busy, 1e-6 * busy + 1e-9);
       EXPECT_LE(busy, work * kMachine.seconds_per_work *
-                          1.000001);  // less, because some work is abandoned
+                          1.000001);  // less, because some work items are abandoned
       const ScalingRow row = scaling_row(run, alone);
       EXPECT_NEAR(row.expanding_s, row.wall_s * ranks * (1 - row.idle_share), 1e-6 * busy);
       EXPECT_GE(row.max_over_mean, 0.999999);

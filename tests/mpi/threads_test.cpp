@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The distributed engine with threads in place of processes: ranks that share only a network on
-// which messages are delayed by random times.
+// Tests the distributed engine with threads instead of processes. The ranks share only a network
+// that delays messages by random times.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -30,8 +30,8 @@ namespace threads_test {
 using testing::HangLimit;
 using testing::random_crowd;
 
-// Messages between two ranks keep their order. A message is delayed by up to `latest` polls of its
-// receiver.
+// A network that preserves the order of messages between two ranks. It delays a message by up to
+// `latest` polls of the receiver.
 class ThreadNetwork {
  public:
   ThreadNetwork(int ranks, std::int64_t latest, std::uint64_t seed)
@@ -40,7 +40,7 @@ class ThreadNetwork {
   }
 
   Transport& at(int rank) { return ends_[static_cast<std::size_t>(rank)]; }
-  // Number of pricing replies received.
+  // Number of pricing replies received so far.
   std::int64_t answers() const { return answers_; }
   bool empty() const {
     for (const auto& link : links_)
@@ -101,7 +101,7 @@ class ThreadNetwork {
   std::deque<End> ends_;
 };
 
-// Returns the solution of rank 0.
+// Runs one thread per rank and returns the solution of rank 0.
 Solution solve_by_ranks(const Instance& instance, const SolveOptions& options, int ranks,
                         ThreadNetwork& network, const Limits& limits, RunObserver& observer) {
   std::optional<Solution> answer;
@@ -163,7 +163,7 @@ TEST(Threads, FindTheOptimumInManyTrees) {
   expect_optima(Policy::kFixed, {Technique::kTarget, Technique::kStrongBranching});
 }
 
-// Interrupts the run once there is a plan and other ranks have priced some subproblems.
+// Interrupts the run once there is a plan and other ranks have solved some pricing problems.
 class Interrupter : public RunObserver {
  public:
   explicit Interrupter(const ThreadNetwork& network) : network_(network) {}
@@ -179,8 +179,8 @@ class Interrupter : public RunObserver {
   bool has_plan_ = false;
 };
 
-// A dense instance that no search solves within this time. The plan is checked, and the bound is at
-// most its cost.
+// A dense instance that no search solves before the interrupt. The plan must be valid, and the
+// bound must not exceed its cost.
 TEST(Threads, PriceSubproblemsForEachOther) {
   const Instance instance =
       random_crowd({.size = 20, .obstacles = 20, .agents = 120, .tasks = 0}, 1);

@@ -29,8 +29,8 @@ namespace {
 using oracle::Answer;
 using oracle::Verdict;
 
-// Optimum of a dense instance, which is too large for exhaustive search: a single-threaded run with
-// all techniques proves it.
+// Returns the optimum of a dense instance that is too large for exhaustive search. A
+// single-threaded run with all techniques proves it.
 Answer truth_by_one_thread(const Instance& instance) {
   const ClockReadingLimit limits(20'000);
   SolveOptions options;
@@ -40,8 +40,9 @@ Answer truth_by_one_thread(const Instance& instance) {
   return {Verdict::kSolved, std::move(solution.plan)};
 }
 
-// Chooses weak techniques, so that many nodes are made and sent. Bounds on pairs make fewer nodes,
-// but then learned bounds on pairs are sent too. A step of the primal search takes a millisecond.
+// Chooses weak techniques, so that the search generates and transfers many nodes. Bounds on pairs
+// reduce the number of nodes, but they lead to messages with learned bounds. The primal search is
+// mostly off, because each of its steps takes a millisecond.
 void choose_weak_techniques(Techniques& techniques, fuzz::Random& dice) {
   if (dice.percent(20)) techniques = {};
   if (dice.percent(70)) techniques = {Technique::kTarget, Technique::kStrongBranching};
@@ -64,8 +65,8 @@ Policy policy_of(const SolveOptions& options) {
   return options.policy == Policy::kFixed ? Policy::kFixed : Policy::kFree;
 }
 
-// Requests checkpoints at random, tests whether a single process finds the optimum from them, and
-// kills all ranks, so that a different number of ranks must resume from the last one.
+// Requests checkpoints at random times, tests whether a single process finds the optimum from them,
+// and kills all ranks, so that a different number of ranks must resume from the last checkpoint.
 class CheckpointTester : public RunObserver {
  public:
   CheckpointTester(const Instance& instance, const Answer& truth, SolveOptions& options,
@@ -94,7 +95,7 @@ class CheckpointTester : public RunObserver {
     killing_ = kills_left_ > 0 && kill_in_ > 0 && --kill_in_ == 0;
     return killing_;
   }
-  // Returns whether it has killed all ranks since the last call.
+  // Returns whether it has killed all ranks since the previous call.
   bool has_killed() {
     if (killing_) --kills_left_;
     return std::exchange(killing_, false);
@@ -104,7 +105,7 @@ class CheckpointTester : public RunObserver {
     return std::make_unique<CheckpointReader>(options_.checkpoints.directory,
                                               fingerprint(instance_), policy_of(options_));
   }
-  // True if a run that has ended left no checkpoint.
+  // Returns whether checkpoints were requested and none was written. Call after the end of a run.
   bool misses_one() const { return used_ && !is_there_; }
   int reopened() const { return reopened_; }
   const std::vector<std::string>& wrong() const { return wrong_; }
@@ -112,7 +113,8 @@ class CheckpointTester : public RunObserver {
  private:
   static constexpr int kMaxReopened = 8;
 
-  // Without the primal search, which would find the optimum even if its node is missing.
+  // Solves from the checkpoint in a single process. The primal search is off, because it could find
+  // the optimum even if its node is missing from the checkpoint.
   void reopen() {
     ++reopened_;
     const ClockReadingLimit limits(1'000);
@@ -134,7 +136,7 @@ class CheckpointTester : public RunObserver {
   const SolveOptions& options_;
   fuzz::Random& dice_;
   const bool used_;
-  const int once_in_;  // steps
+  const int once_in_;  // mean number of steps between requests
   std::atomic<bool> asked_{false};
   bool is_there_ = false;
   bool killing_ = false;
@@ -151,7 +153,7 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
   fuzz::Random dice(seed);
   fuzz::FuzzCase fuzz_case = fuzz::random_case(seed);
   SolveOptions& options = fuzz_case.options;
-  options.low_level = LowLevel::kOwn;  // the others are slow and do not affect the protocol
+  options.low_level = LowLevel::kOwn;  // other low levels are slow and do not affect the protocol
   options.threads = 1;
   options.deterministic = false;
   choose_weak_techniques(options.techniques, dice);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Solves one random tiny instance with random ranks and events in random order, and checks all
-// claims against the optimum.
+// Solves a random tiny instance with a random number of ranks and events in random order, and
+// checks all claims against the optimum.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,20 @@
 namespace grove::detail::testing {
 
 struct ScheduleTally {
-  std::int64_t tried = 0;  // instances whose optimum could be computed
+  std::int64_t tried = 0;  // instances with a known optimum
   std::int64_t unfinished = 0;
   std::int64_t nodes = 0;
   std::int64_t messages = 0;
   std::int64_t batches = 0;
   std::int64_t restarts = 0;
-  std::int64_t prices = 0;  // subproblems that other ranks priced for rank 0
+  std::int64_t prices = 0;  // pricing problems that other ranks solved for rank 0
   std::int64_t facts = 0;   // learned bounds that ranks sent to each other
   std::int64_t resumed = 0;
   std::int64_t limit_reached = 0;
-  std::int64_t reopened = 0;  // checkpoints from which a single process resumed
+  std::int64_t reopened = 0;  // number of times that a single process resumed from a checkpoint
 };
 
-// Returns the false claims; empty if there are none. The same seed gives the same run.
+// Returns the false claims, or an empty vector. The same seed gives the same run.
 std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally);
 
 }  // namespace grove::detail::testing

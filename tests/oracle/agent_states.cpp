@@ -41,7 +41,7 @@ AgentStates::State AgentStates::number(const AgentState& standing) {
   return known->second;
 }
 
-// A task that takes no time is visited by being on its place.
+// Marks the tasks on the agent's place that take no time as visited.
 void AgentStates::arrive(AgentState& standing) const {
   for (std::size_t k = 0; k < agent_.tasks.size(); ++k) {
     const Task& task = instance_.task(agent_.tasks[k]);
@@ -60,7 +60,8 @@ bool AgentStates::may_rest(const AgentState& standing) const {
          });
 }
 
-// An agent that has begun a task continues it until it is completed; then it may move at once.
+// An agent that has started a task continues it until it is completed. In the next step it can
+// move.
 std::vector<AgentState> AgentStates::next(const AgentState& standing) const {
   std::vector<AgentState> next;
   const auto work_on = [&](int work, Time done) {
@@ -111,7 +112,7 @@ void AgentStates::connect(State s) {
   }
 }
 
-// Value iteration until no cost changes: slow, but simple.
+// Value iteration until no cost changes, chosen for simplicity over speed.
 void AgentStates::settle_costs() {
   to_go_.assign(moves_.size(), kNever);
   for (State s = 0; s < count(); ++s)

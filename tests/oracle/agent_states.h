@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// State space of one agent without other agents: states, moves and exact cost-to-go.
+// State space of a single agent, ignoring all other agents: states, moves and exact costs-to-go.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@
 
 namespace grove::detail::oracle {
 
-// State of an agent: its pose, the task in execution and the visited tasks. Derived only from the
-// instance.
+// State of an agent: its pose, the task in execution, the visited tasks, and whether it rests for
+// ever. Derived only from the instance.
 struct AgentState {
   Pose pose;
   int work = -1;              // task in execution, as index in Agent::tasks; -1: none
-  Time done = 0;              // steps of `work` done
+  Time done = 0;              // steps of `work` completed
   std::uint64_t visited = 0;  // bit i: Agent::tasks[i] is visited
-  bool resting = false;       // for ever
+  bool resting = false;       // rests for ever
 
   auto key() const {
     return std::tuple(pose.place, pose.heading, pose.to, pose.steps, work, done, visited, resting);
@@ -27,8 +27,8 @@ struct AgentState {
   bool operator<(const AgentState& other) const { return key() < other.key(); }
 };
 
-// The reachable states of one agent, numbered from 0. In a state in which the agent may rest, it
-// can also decide to do so: then it stays there for ever, at no further cost.
+// The reachable states of one agent, numbered from 0. From a state in which the agent may rest, one
+// of its moves is to rest there for ever at no further cost.
 class AgentStates {
  public:
   using State = std::int32_t;
@@ -43,14 +43,14 @@ class AgentStates {
   struct TooMany {};
 
   State count() const { return static_cast<State>(states_.size()); }
-  // State at time 0; a task on the start that takes no time is visited already.
+  // State at time 0, in which a task on the start that takes no time is already visited.
   State start() const { return 0; }
   const std::vector<Move>& moves(State s) const { return moves_[s]; }
   const AgentState& standing(State s) const { return states_[s]; }
   Place cell(State s) const { return states_[s].pose.place; }
   bool resting(State s) const { return states_[s].resting; }
-  // Least cost until the agent can rest, without other agents. 0 if and only if it rests or may
-  // rest; kNever if it never can.
+  // Least cost until the agent can rest, ignoring other agents: 0 if and only if it rests or may
+  // rest; kNever if it can never rest.
   Time to_go(State s) const { return to_go_[s]; }
 
  private:
@@ -63,7 +63,7 @@ class AgentStates {
 
   const Instance& instance_;
   const Agent& agent_;
-  std::vector<std::vector<Place>> steps_;  // by place
+  std::vector<std::vector<Place>> steps_;  // adjacent places, by place
   std::map<AgentState, State> numbers_;
   std::vector<AgentState> states_;
   std::vector<std::vector<Move>> moves_;

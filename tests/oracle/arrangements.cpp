@@ -13,7 +13,8 @@ class Walk {
   explicit Walk(const Instance& instance)
       : steps_(steps_on(instance.map())), may_follow_(instance.may_follow()) {}
 
-  // Calls `visit` with each configuration that one joint step from `now` leads to.
+  // Calls `visit` with each configuration that one joint step from `now` can lead to. `next` holds
+  // the places chosen so far and is empty in the outermost call.
   template <class Visit>
   void for_each_next(const Places& now, Places& next, Visit visit) const {
     const std::size_t agent = next.size();

@@ -10,11 +10,12 @@
 
 namespace grove::detail::oracle {
 
-// Configuration: the place of each agent.
+// Configuration: the place of each agent, by agent index.
 using Places = std::vector<Place>;
 
-// The configurations that are reachable from the starts by steps without collisions. Agents that
-// turn are treated as if they turned freely. Empty if there are more than `max_count`.
+// Returns the configurations that are reachable from the starts by steps without collisions. Turns
+// are ignored, as if they took no time. Returns an empty set if there are more than `max_count`
+// configurations.
 std::set<Places> reachable_configurations(const Instance& instance, std::size_t max_count);
 
 }  // namespace grove::detail::oracle

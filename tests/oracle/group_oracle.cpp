@@ -100,7 +100,7 @@ class CheapestCombination {
     }
     for (const PlacePath& way : ways_[chosen_.size()]) {
       const Cost more = cost + static_cast<Cost>(way.size()) - 1;
-      if (more + others_at_least() >= best_) return;  // the remaining paths cost no less
+      if (more + others_at_least() >= best_) return;  // later paths cost no less
       if (std::ranges::any_of(
               chosen_, [&](const PlacePath* other) { return collide(*other, way, may_follow_); }))
         continue;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Optimum of a few agents under constraints, by enumeration and comparison of all their paths.
+// Optimum of a few agents under constraints, found by enumerating all their paths and combining
+// them.
 #pragma once
 
 #include <cstddef>
@@ -12,19 +13,19 @@
 
 namespace grove::detail::oracle {
 
-// Path of an agent as places at times 0, 1, ... until it comes to rest. Its cost is its size
-// less 1.
+// Path of an agent: its places at times 0, 1, ... until it comes to rest. Its cost is its size
+// minus 1.
 using PlacePath = std::vector<Place>;
 
-// The paths of an agent that satisfy `constraints` and cost `most` or less, in ascending order of
-// cost. Returns nullopt if there are more than `cap` paths, or more than 40 * `cap` states to
-// examine.
+// Returns all paths of an agent that satisfy `constraints` and cost at most `most`, in ascending
+// order of cost. Returns nullopt if there are more than `cap` paths, or if the enumeration examines
+// more than 40 * `cap` states.
 std::optional<std::vector<PlacePath>> paths_within(const Instance& instance, AgentIndex agent,
                                                    std::span<const Constraint> constraints,
                                                    Time most, std::size_t cap);
 
-// The least total cost of one path per agent without collisions. `ways`: the paths of each agent.
-// Returns nullopt if all combinations collide.
+// Returns the least total cost of a collision-free combination with one path per agent, chosen from
+// that agent's `ways`. Returns nullopt if every combination has a collision.
 std::optional<Cost> least_joint_cost(const Instance& instance,
                                      std::span<const std::vector<PlacePath>> ways);
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 // A* over joint states. A joint state holds, for every agent, its pose, its task in execution, the
-// tasks it has visited and whether it rests for ever (agent_states.h). A step moves all agents
-// concurrently and costs the number of agents that are not at rest. So the cost of a path is the
-// sum of the agents' finish times: an agent pays for every step, waits included, up to the one at
-// which it rests for ever. To rest is a decision: an agent that may rest can also continue to pay
+// tasks that it has visited and whether it rests for ever (agent_states.h). A step moves all agents
+// at the same time and costs the number of agents that are not at rest. The cost of a path is
+// therefore the sum of the agents' finish times: an agent pays for every step, waits included,
+// until it rests for ever. Resting is a decision. An agent that may rest can also continue to pay
 // and leave again.
 //
-// *Soundness.* The heuristic is the sum of the agents' exact individual costs-to-go. One step costs
-// an agent 1 and lowers its cost-to-go by at most 1, or costs 0 and leaves it at 0. So the
-// heuristic is consistent, a state's cost is final when the state is taken from the queue, and the
-// first state taken in which all agents may rest is optimal. There are finitely many states, so an
-// empty queue proves that there is no plan. A state in which some agent has no individual path left
-// is dropped, because no plan leads through it.
+// *Soundness.* The heuristic is the sum of the agents' exact individual costs-to-go. A step either
+// costs an agent 1 and lowers its cost-to-go by at most 1, or costs 0 and leaves its cost-to-go at
+// 0. The heuristic is therefore consistent, a state's cost is final when the state is taken from
+// the queue, and the first state taken in which all agents may rest is optimal. There are finitely
+// many states, so an empty queue proves that there is no plan. A state is dropped if some agent,
+// even ignoring the others, can no longer finish, because no plan passes through that state.
 //
-// Shares only the types of the model with Grove.
+// The oracle shares only the types of the model layer with Grove.
 #include "tests/oracle/joint_oracle.h"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ struct Node {
 // Hash table of nodes by key: open addressing, at most half full.
 class NodeTable {
  public:
-  // The node of `key`, appended to `nodes` if it is new.
+  // Returns the node of `key`, after appending it to `nodes` if it is new.
   NodeIndex find_or_add(Key key, std::vector<Node>& nodes) {
     if ((nodes.size() + 1) * 2 > slots_.size()) grow(nodes);
     NodeIndex& slot = slots_[find(key, nodes)];
@@ -98,9 +98,9 @@ class JointAStar {
   std::vector<Key> mask_;
   std::vector<Node> nodes_;
   NodeTable table_;
-  std::vector<std::vector<NodeIndex>> buckets_;  // by cost + cost to go
+  std::vector<std::vector<NodeIndex>> buckets_;  // by cost + cost-to-go
   std::size_t first_bucket_ = 0;
-  // The current expansion.
+  // State of the current expansion:
   NodeIndex parent_ = kNoNode;
   std::vector<State> from_;
   std::vector<State> to_;
@@ -175,7 +175,8 @@ bool JointAStar::collides(std::size_t agent, State to) const {
   return false;
 }
 
-// Enumerates the moves of `agent` and of all agents after it; the moves of those before are chosen.
+// Enumerates the moves of `agent` and of all later agents, after the moves of the earlier ones are
+// chosen.
 void JointAStar::advance(std::size_t agent, Key key, Time cost) {
   if (agent == agents_.size()) {
     reach(key, cost);
@@ -225,7 +226,7 @@ AgentPlan JointAStar::agent_plan(std::size_t agent, const std::vector<Key>& keys
   std::uint64_t before = 0;
   for (const Key key : keys) {
     const AgentState& here = states.standing(state(key, agent));
-    if (here.resting) break;  // it has rested since the step before
+    if (here.resting) break;  // at rest since the previous step
     const auto now = static_cast<Time>(result.path.size());
     result.path.push_back(instance_.state_of(index, here.pose));
     for (std::uint64_t bits = here.visited & ~before; bits != 0; bits &= bits - 1) {
@@ -241,7 +242,8 @@ AgentPlan JointAStar::agent_plan(std::size_t agent, const std::vector<Key>& keys
   return result;
 }
 
-// An agent that returns to a task to rest there visits that task last, if it takes no time.
+// Moves the task on which the agent rests to the end of its sequence, because the agent visits it
+// last (when it returns to rest there).
 void JointAStar::finish_on_last(AgentIndex index, AgentPlan& agent) const {
   if (!instance_.rests_on_last_stop(index)) return;
   const auto last = std::ranges::find(agent.sequence, instance_.world().place(agent.path.back()),

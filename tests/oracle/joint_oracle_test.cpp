@@ -16,7 +16,7 @@ Answer solve_text(const char* text) {
   return solve_jointly(fuzz::TinyInstance::parse(text).build());
 }
 
-// The optimal cost; -1 if there is no plan.
+// Returns the optimal cost, or -1 if there is no plan.
 Cost optimum(const char* text) {
   const Answer answer = solve_text(text);
   EXPECT_NE(answer.verdict, Verdict::kTooLarge);
@@ -42,7 +42,7 @@ TEST(JointOracle, AgentAtItsDestinationMustLeaveForItsTask) {
 }
 
 TEST(JointOracle, AgentLeavesItsDestinationForAnotherToPass) {
-  // Agent 0 is at its destination, but agent 1 must pass. So agent 0 leaves and returns at time 3.
+  // Agent 0 is at its destination but blocks agent 1. It therefore leaves and returns at time 3.
   EXPECT_EQ(optimum("map\n.....\n@@.@@\nagents\n2,0 -> 2,0\n0,0 -> 4,0\n"), 2 + 5);
   // In a longer corridor agent 0 waits before it leaves, and returns at time 4.
   EXPECT_EQ(optimum("map\n.......\n@@@.@@@\nagents\n3,0 -> 3,0\n0,0 -> 6,0\n"), 4 + 6);
@@ -64,12 +64,14 @@ TEST(JointOracle, FourAgentsMayRotate) {
 }
 
 TEST(JointOracle, BayMakesTheSwapPossible) {
-  // One agent enters the bay at (2, 1) and leaves it again, 2 more steps; the other waits 1 step.
+  // One agent enters the bay at (2, 1) and leaves it again, which costs 2 more steps; the other
+  // waits 1 step.
   EXPECT_EQ(optimum("map\n.....\n@@.@@\nagents\n0,0 -> 4,0\n4,0 -> 0,0\n"), 8 + 3);
 }
 
 TEST(JointOracle, RestingAgentBlocksTaskOfAnother) {
-  // Agent 1 needs agent 0's destination, at the end of a corridor: agent 0 has to let it in first.
+  // Agent 1 has a task on agent 0's destination at the end of a corridor: agent 0 has to let it in
+  // first.
   EXPECT_EQ(optimum("map\n...\n@.@\nagents\n1,1 -> 2,0\n0,0 -> 0,0\ntasks\n2,0: 1\n"), 4 + 5);
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Optimal cost of two agents by breadth-first search over joint states, layer by layer of time.
+// Optimal cost of two agents by breadth-first search over joint states, one layer per time step.
 //
-// As long as neither agent rests, both pay for every step. So all paths to a joint state at time t
-// cost 2t, and breadth-first search finds the earliest t. The agent that rests first does so at
-// some time t in some joint state. From then on it is a wall, and a second breadth-first search
-// finds the other agent's cheapest path to its rest. The optimum is the least sum of 2t and the
-// cost of that path, over all joint states and both agents. An agent that reaches a state later has
-// no more choices there than an agent that reached it earlier, so the earliest time suffices.
+// As long as neither agent rests, both pay for every step. All paths to a joint state at time t
+// therefore cost 2t, and breadth-first search finds the earliest t. The agent that rests first does
+// so at some time t in some joint state. From then on its place is blocked, and a second
+// breadth-first search finds the other agent's cheapest path to its rest. The optimum is the
+// minimum of 2t plus the cost of that path, over all joint states and both choices of the agent
+// that rests first. The earliest time suffices for each joint state, because an agent that reaches
+// a state later has no additional choices there.
 #include "tests/oracle/layered_search.h"
 
 #include <algorithm>
@@ -20,15 +21,15 @@
 namespace grove::detail::oracle {
 namespace {
 
-// State of an agent with its remaining tasks and their remaining steps; 0 steps: a task that takes
-// no time.
+// State of an agent with its remaining tasks, each with its remaining steps (0 for a task that
+// takes no time).
 struct Walker {
   Place cell;
   Heading heading;
   Heading turning_to;
   Time turned;
   std::map<TaskIndex, Time> left;
-  TaskIndex at_work;  // it must continue this task; -1: none
+  TaskIndex at_work;  // the task that it must continue; -1: none
   auto operator<=>(const Walker&) const = default;
 };
 
@@ -53,7 +54,7 @@ bool is_home(const Instance& instance, AgentIndex agent, const Walker& walker) {
 
 using Steps = std::vector<std::vector<Place>>;
 
-// The state after one step of `task`.
+// Returns the state after one step of executing `task`.
 Walker after_task_step(const Walker& walker, TaskIndex task) {
   Walker then = walker;
   Time& left = then.left.at(task);
@@ -126,7 +127,8 @@ Walker at_start(const Instance& instance, AgentIndex agent) {
   return walker;
 }
 
-// Steps until `walker` may rest, with `wall` blocked for ever. Returns nullopt if it never can.
+// Returns the number of steps until `walker` may rest while `wall` is blocked for ever, or nullopt
+// if it can never rest.
 std::optional<Cost> steps_to_rest(const Instance& instance, const Steps& map, AgentIndex agent,
                                   const Walker& walker, Place wall) {
   std::set<Walker> seen{walker};
@@ -150,7 +152,8 @@ bool collide(const Pair& from, const Pair& to) {
   return swap || to.first.cell == to.second.cell;
 }
 
-// The least cost from `pair` on if one of the two rests there at once.
+// Returns the least cost from `pair` on if one of the two agents rests there immediately; nullopt
+// if that is impossible.
 std::optional<Cost> cost_after_first_rest(const Instance& instance, const Steps& map,
                                           const Pair& pair) {
   std::optional<Cost> best;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Steps of an agent, computed from the map. Independent of the library's World.
+// Moves of an agent, computed from the map. Independent of the library's World.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,11 @@
 
 namespace grove::detail::oracle {
 
-// For each place: the places one move away, without waits.
+// Returns, for each place, the places that are one move away (waits excluded).
 std::vector<std::vector<Place>> steps_on(const Map& map);
 
-// The poses of `agent` one step away from `pose`, on a map with these steps, without waits.
+// Returns the poses of `agent` that are one step away from `pose` (waits excluded). `steps`: result
+// of steps_on() for the map.
 std::vector<Pose> next_poses(const Instance& instance, const Agent& agent,
                              const std::vector<std::vector<Place>>& steps, const Pose& pose);
 

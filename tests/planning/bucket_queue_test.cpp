@@ -43,7 +43,7 @@ TEST(BucketQueue, ResetRemovesAllEntries) {
   EXPECT_TRUE(drain(queue).empty());
 }
 
-// Compares random pushes and pops with a multimap.
+// Compares random pushes and pops with those of a multimap.
 TEST(BucketQueue, AgreesWithSortedMap) {
   std::mt19937 random(1);
   BucketQueue queue;

@@ -54,8 +54,8 @@ TEST(ConflictAvoidanceTable, AgreesWithNaiveCounts) {
   }
 }
 
-// Counts of removed paths occupy memory until the table needs it. The test adds three times as many
-// paths as fit at first.
+// The counts of removed paths occupy memory until the table needs it and drops them. The test adds
+// three times as many paths as initially fit.
 TEST(ConflictAvoidanceTable, AgreesAfterDroppingRemovedPaths) {
   std::mt19937 random(8);
   const Grid grid =
@@ -90,9 +90,9 @@ TEST(ConflictAvoidanceTable, CountsVertexAndSwap) {
   const Grid grid = grid_of({"..."});
   ConflictAvoidanceTable table(grid);
   table.add({0, 1, 2});
-  EXPECT_EQ(table.conflicts(1, 0, 1), 1);  // a swap
+  EXPECT_EQ(table.conflicts(1, 0, 1), 1);  // a swap conflict
   EXPECT_EQ(table.conflicts(1, 1, 1), 1);
-  EXPECT_EQ(table.conflicts(0, 1, 1), 1);  // the same move: a vertex conflict only
+  EXPECT_EQ(table.conflicts(0, 1, 1), 1);  // the same move as another agent: only a vertex conflict
   EXPECT_EQ(table.conflicts(1, 0, 2), 0);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Constraints and the paths that satisfy them. The library and tests/support/satisfies implement
-// satisfies() independently; the two must agree.
+// Tests constraints and the paths that satisfy them. The library and tests/support/satisfies
+// implement satisfies() independently and must agree.
 #include "planning/constraint.h"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ TEST(Constraint, SatisfiesThrowsForSequenceConstraint) {
   EXPECT_THROW(satisfies(grid, {0, 1}, next, Corridors(grid)), std::invalid_argument);
 }
 
-// Files and messages between processes contain these numbers.
+// The numbers are part of file formats and of messages between processes.
 TEST(Constraint, KindsHaveNumbersAndNames) {
   const std::array names{"bar", "no-rest-by", "rest-by", "no-traversal", "stop-is", "stop-is-not"};
   for (std::uint8_t number = 0; number < names.size(); ++number) {
@@ -69,8 +69,8 @@ TEST(Constraint, KindsHaveNumbersAndNames) {
   EXPECT_FALSE(constraint_kind(255));
 }
 
-// Three agents: the constraint on each of them, by for_each_implied_constraint() and by
-// constraint_on().
+// Compares the constraint on each of three agents that for_each_implied_constraint() and
+// constraint_on() return.
 TEST(Constraint, AppliesToItsAgentAndRestByToAllOthers) {
   const std::array<AgentIndex, 3> all{0, 1, 2};
   const auto implied_by = [&](const AgentConstraint& added) {

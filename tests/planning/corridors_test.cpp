@@ -53,7 +53,7 @@ TEST(Corridors, LoopBeginsAndEndsAtOneCell) {
   EXPECT_EQ(loop.back(), 10);
 }
 
-// Checks the definition on random maps.
+// Tests the definition on random maps.
 TEST(Corridors, AreMaximalRowsOfCellsWithTwoNeighbors) {
   std::mt19937 random(1);
   int corridors_seen = 0;
@@ -79,8 +79,8 @@ TEST(Corridors, AreMaximalRowsOfCellsWithTwoNeighbors) {
     }
     std::ranges::sort(inner);
     EXPECT_EQ(std::ranges::adjacent_find(inner), inner.end());
-    // All other cells with two neighbours are on isolated rings: each of their neighbours has two
-    // neighbours, too.
+    // All other cells with two neighbours lie on isolated rings: their neighbours have two
+    // neighbours each, too.
     for (Cell cell = 0; cell < grid.cell_count(); ++cell) {
       if (std::ranges::binary_search(inner, cell)) continue;
       EXPECT_EQ(corridors.corridor_of(cell), Corridors::kNoCorridor);

@@ -13,8 +13,8 @@
 namespace grove::detail {
 namespace fewest_conflicts_test {
 
-// Fewest conflicts of any path of the MDD that begins with `path` and continues with `node`, by
-// enumeration.
+// Returns the fewest conflicts of any path of the MDD that starts with `path` and continues at
+// `node`, by enumeration.
 int fewest(const Mdd& paths, const ConflictAvoidanceTable& others, Mdd::NodeId node, Path& path) {
   path.push_back(paths.state(node));
   int best = std::numeric_limits<int>::max();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Single-agent search in a fixed order of goals: cases that some low-level search has solved
-// wrongly.
+// Tests single-agent search with a fixed order of goals, including cases in which some low-level
+// search was wrong.
 #include "planning/fixed_order_sipp.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TEST(FixedOrderSipp, VisitsGoalsInTheGivenOrder) {
 TEST(FixedOrderSipp, EarlyArrivalInDeadEndMayCostMore) {
   const Grid grid = grid_of({"...."});
   const SingleAgent agent(grid, 3, {0}, 3);
-  // An agent on the task at time 3 cannot leave before time 21 and cannot stay at time 10.
+  // An agent that is on the task at time 3 can neither leave before time 21 nor stay at time 10.
   EXPECT_EQ(cost_of(grid, agent, {{1, kNoCell, 4, 20}, {0, kNoCell, 10, 10}}), 25);
 }
 
@@ -127,8 +127,8 @@ TEST(FixedOrderSipp, EdgeConstraintBarsOneDirectionAtArrivalTime) {
 TEST(FixedOrderSipp, IsInfeasibleWhenEveryWaitingPlaceIsBarred) {
   const Grid grid = grid_of({"...", "@.@"});
   const SingleAgent agent(grid, 0, {}, 2);
-  // The destination is barred at times 2 and 3. The agent waits at the start, in the middle or in
-  // the niche, until all of them are barred.
+  // The destination is barred at times 2 and 3. The agent can wait at the start, in the middle or
+  // in the niche; these places are barred one after another.
   EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 2, 3}}), 4);
   EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 2, 3}, {0, kNoCell, 1, 9}}), 4);
   EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 2, 3}, {0, kNoCell, 1, 9}, {1, kNoCell, 2, 2}}), 4);
@@ -138,7 +138,8 @@ TEST(FixedOrderSipp, IsInfeasibleWhenEveryWaitingPlaceIsBarred) {
       kInfeasible);
 }
 
-// Gates of fixed_order_goals.h: the first visit of the task leads to no path, but a later one does.
+// Tests the gates of fixed_order_goals.h: the first visit of the task leads to no path, but a later
+// visit does.
 TEST(FixedOrderSipp, LaterVisitIsTriedWhenFirstVisitLeadsNowhere) {
   const Grid grid = grid_of({".....", "@@.@@"});
   const SingleAgent agent(grid, 0, {7}, 4);
@@ -150,21 +151,21 @@ TEST(FixedOrderSipp, LaterVisitIsTriedWhenFirstVisitLeadsNowhere) {
   EXPECT_EQ(cost_of(grid, agent, constraints), kInfeasible);
 }
 
-// A gate postpones labels. Here they are expanded after a gate of an earlier goal, although they
-// can visit that goal before the gate's time g. The gate must not postpone them: they violate its
-// first condition, f(L) >= g + after_goal(k).
+// A gate postpones labels. The labels in question are expanded after a gate of an earlier goal,
+// although they can visit that goal before the time g of the gate. The gate must not postpone them,
+// because they violate its first condition, f(L) >= g + after_goal(k).
 TEST(FixedOrderSipp, GateKeepsLabelsThatReachItsGoalEarlier) {
   const Grid grid = grid_of({".......", "@.@@@@@"});
   const SingleAgent agent(grid, 0, {2, 5}, 6);
   const Constraints constraints{
-      {1, kNoCell, 3, 3},     {1, kNoCell, 5, 5},   // to the first task at once, at 5, or from 7 on
+      {1, kNoCell, 3, 3},     {1, kNoCell, 5, 5},   // arrival on 2 at time 2, 5, or from 7 on
       {2, kNoCell, 3, 4},     {2, kNoCell, 6, 6},   //
-      {3, kNoCell, 4, 5},     {3, kNoCell, 8, 30},  // an agent there at 7 or later waits for long
-      {4, kNoCell, 6, 6},     {3, 4, 6, 6},         // an agent there at 2 is trapped at the second
+      {3, kNoCell, 4, 5},     {3, kNoCell, 8, 30},  // on 2 from 7 on: a long wait
+      {4, kNoCell, 6, 6},     {3, 4, 6, 6},         // on 2 at time 2: trapped at 5
       {5, kNoCell, 6, 14},    {6, kNoCell, 6, 15},  //
       {8, kNoCell, 0, kNever}};
   ConflictAvoidanceTable others(grid);
-  others.add({8, 8, 8, 8, 1, 8});  // makes arriving at 5 the second choice
+  others.add({8, 8, 8, 8, 1, 8});  // makes the arrival at 5 second choice
   EXPECT_EQ(path_of(grid, agent, constraints, &others).size(), 17U);
   EXPECT_EQ(cost_of(grid, agent, constraints), 16);
 }
@@ -195,7 +196,7 @@ TEST(FixedOrderSipp, PrefersPathWithFewerConflicts) {
 TEST(FixedOrderSipp, WaitsWhereNoOtherAgentPasses) {
   const Grid grid = grid_of({"...", ".@.", "..."});
   const SingleAgent agent(grid, 0, {}, 8);
-  const Constraints constraints{{8, kNoCell, 1, 6}};  // wait on 5 or on 7
+  const Constraints constraints{{8, kNoCell, 1, 6}};  // the agent waits on 5 or on 7
   for (Cell crossed : {5, 7}) {
     ConflictAvoidanceTable others(grid);
     others.add({8, 8, 8, 8, crossed, crossed, 8});
@@ -247,8 +248,8 @@ TEST(FixedOrderSipp, StopsWithoutAnswerWhenALimitIsReached) {
   EXPECT_GT(search.expanded(), 0);
 }
 
-// A long proof of infeasibility: no move may enter the task's cell, and the cell itself is barred
-// at every second time from 400 to 3998.
+// A long proof of infeasibility: no move may enter the cell of the task, and the cell itself is
+// barred at every second time from 400 to 3998.
 TEST(FixedOrderSipp, StopsDuringLongInfeasibilityProof) {
   const Grid grid(100, 100, std::vector<bool>(10'000, true));
   const SingleAgent agent(grid, 0, {5'050}, 9'999);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Single-agent search that chooses the order of the stops, compared with a search by definition and
-// with FixedOrderSipp over all orders. GROVE_FUZZ_FACTOR multiplies the number of cases.
+// Tests single-agent search that chooses the order of the stops, against a search by definition and
+// against FixedOrderSipp over all orders. GROVE_FUZZ_FACTOR multiplies the number of cases.
 #include "planning/free_order_sipp.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ using testing::path_error;
 using testing::Problem;
 using testing::SingleAgent;
 
-// One agent, its sequence class and both searches.
+// An agent, its sequence class and both low-level searches.
 struct Agent : FreeAgent {
   explicit Agent(const FreeProblem& given)
       : FreeAgent(given),
@@ -50,7 +50,8 @@ struct Agent : FreeAgent {
         matrix, [&agent, matrix] { return direct_legs(agent.instance, 0, matrix); });
     return graph.of_class(agent.problem.work).value_or(graph);
   }
-  // Like cost(), with cost-to-go from a graph of sequences that paths can realize by direct legs.
+  // Like cost(), but takes the cost-to-go from a graph of the sequences that paths can realize by
+  // direct legs.
   std::optional<Time> direct_cost(const ConflictAvoidanceTable* others) {
     Path found;
     const Outcome outcome =
@@ -64,7 +65,7 @@ struct Agent : FreeAgent {
   Outcome find(Time cutoff, Path& found, const ConflictAvoidanceTable* others = nullptr) {
     return free.find(goals, {problem.constraints, others, cutoff}, Limits(), found);
   }
-  // The least cost of a path; checks the path. Returns nullopt if there is no path.
+  // Finds a path, checks it and returns its cost. Returns nullopt if there is no path.
   std::optional<Time> cost(const ConflictAvoidanceTable* others = nullptr) {
     const Outcome outcome = find(kNever, path, others);
     if (outcome == Outcome::kInfeasible) return std::nullopt;
@@ -103,10 +104,10 @@ struct Agent : FreeAgent {
   Path path;
 };
 
-// Random problems on tiny maps, each made harder one constraint at a time.
+// Random problems on tiny maps, to which constraints are added one at a time.
 class Fuzzer {
  public:
-  // `conditional`: constraints of all kinds, not only vertex and edge constraints.
+  // `conditional`: uses constraints of all kinds, not only vertex and edge constraints.
   Fuzzer(unsigned seed, bool conditional) : problems_(seed, conditional) {}
 
   void run() {
@@ -167,7 +168,8 @@ TEST_P(FreeOrderSippFuzz, AgreesWithSearchByDefinition) {
   EXPECT_GT(infeasible, seeds / 4);
 }
 
-// 2^n sequences have the same cost, but few of them visit each stop when the agent first passes it.
+// 2^n sequences have the same cost, but in few of them does the agent visit each stop when it first
+// passes it.
 TEST(FreeOrderSipp, RowOfTasksNeedsFewLabels) {
   for (const int n : {24, 64}) {
     const Grid grid = grid_of({std::string(static_cast<std::size_t>(n) + 4, '.'),
@@ -187,7 +189,7 @@ TEST(FreeOrderSipp, RowOfTasksNeedsFewLabels) {
   }
 }
 
-// The limit counts the labels of the call, whatever the calls before it expanded.
+// The limit applies to the labels of one call, however many labels earlier calls expanded.
 TEST(FreeOrderSipp, StopsAtTheGivenNumberOfLabels) {
   const Grid grid = grid_of(std::vector<std::string>(12, "............"));
   FreeProblem problem{&grid, 0, {17, 30, 44, 50, 71, 90, 100, 119, 130, 141}, 143, {}, {}};
@@ -205,7 +207,8 @@ TEST(FreeOrderSipp, StopsAtTheGivenNumberOfLabels) {
 INSTANTIATE_TEST_SUITE_P(, FreeOrderSippFuzz, ::testing::Bool(),
                          [](const auto& all) { return all.param ? "AllKinds" : "Bars"; });
 
-// Enough stops that the cost-to-go is a graph that holds only the sequences of low cost.
+// A problem whose cost-to-go is a graph of only the low-cost sequences, because it has too many
+// stops for a table.
 class ManyStops {
  public:
   ManyStops(unsigned seed, bool with_destination) : random_(seed) {
@@ -222,8 +225,8 @@ class ManyStops {
     if (with_destination) problem_.destination = cells[1];
   }
 
-  // Adds constraints one by one. After each, the sequence that the answer realizes must have a path
-  // of the answer's cost, and no sequence of lower cost may have a cheaper path.
+  // Adds constraints one at a time. After each, FixedOrderSipp must find a path of the same cost
+  // for the sequence that the answer realizes, and no cheaper path for any sequence of lower cost.
   void check() {
     Agent agent(problem_);
     for (int n = 0; n < 8; ++n) {
@@ -239,7 +242,8 @@ class ManyStops {
   static constexpr int kSide = 9;
   static constexpr std::size_t kMaxSequences = 100;
 
-  // A vertex constraint on a cell of its path; sometimes for ever if the agent need not visit it.
+  // Returns a vertex constraint on a cell of the agent's path, sometimes without an end if the
+  // agent need not visit that cell.
   Constraint bar(const Agent& agent) {
     const int t = 1 + static_cast<int>(random_() % (agent.path.size() - 1));
     const Cell cell = agent.path[t];
@@ -249,7 +253,7 @@ class ManyStops {
     return {cell, kNoCell, t, random_() % 4 == 0 ? t + 12 : t};
   }
 
-  // A cell of the largest connected component.
+  // Returns a cell of the largest connected component.
   Cell some_passable() {
     Cell best = 0;
     for (Cell c = 0; c < grid_->cell_count(); ++c)
@@ -292,12 +296,12 @@ TEST(FreeOrderSipp, ChoosesTheCheapestOrder) {
   EXPECT_EQ(realized_sequence(agent.goals, agent.path), (Sequence{1, 2, 0}));
 }
 
-// A stop after the prefix is not counted before the prefix is complete, and a forbidden stop does
-// not come next.
+// A later stop does not count as visited before the prefix is complete, and a forbidden stop does
+// not directly follow the prefix.
 TEST(FreeOrderSipp, StaysWithinItsSequenceClass) {
   const Grid grid = grid_of({"......"});
   FreeProblem problem = corridor(grid, {1, 3, 5}, 0);
-  problem.work = {{1}, 0b100};  // 3 first, then not 5
+  problem.work = {{1}, 0b100};  // cell 3 first, and cell 5 not next
   Agent agent(problem);
   EXPECT_EQ(agent.cost(), 3 + 2 + 4 + 5);
   EXPECT_EQ(realized_sequence(agent.goals, agent.path), (Sequence{1, 0, 2}));
@@ -319,7 +323,7 @@ TEST(FreeOrderSipp, RejectsInvalidPrefix) {
   }
 }
 
-// Without a destination the agent rests on the stop that is not barred for ever.
+// Without a destination the agent rests on the only stop that is not barred for ever.
 TEST(FreeOrderSipp, CellBarredForeverCannotBeTheRest) {
   const Grid grid = grid_of({"......"});
   FreeProblem problem = corridor(grid, {1, 3}, std::nullopt);
@@ -329,7 +333,7 @@ TEST(FreeOrderSipp, CellBarredForeverCannotBeTheRest) {
   EXPECT_EQ(realized_sequence(agent.goals, agent.path), (Sequence{1, 0}));
 }
 
-// An agent that comes to 3 early may not rest there and cannot leave again in time.
+// An agent that reaches 3 early may not rest there and cannot leave again in time.
 TEST(FreeOrderSipp, GateKeepsLabelsThatArriveLateEnoughToRest) {
   const Grid grid = grid_of({"...."});
   FreeProblem problem = corridor(grid, {3}, std::nullopt);
@@ -353,13 +357,15 @@ TEST(FreeOrderSipp, DistinguishesInfeasibleRestFromAboveCutoff) {
   EXPECT_EQ(path.back(), 1);
 }
 
-// Without a destination the agent rests on its last stop, which cannot be its first stop, too.
+// Without a destination the agent rests on its last stop, so it cannot rest on a stop that must be
+// first.
 TEST(FreeOrderSipp, DoesNotRestOnStopThatMustBeFirst) {
   const Grid grid = grid_of({"......"});
   FreeProblem problem = corridor(grid, {1, 3, 5}, std::nullopt);
-  problem.work.forbidden_next = 0b010;  // 1 or 5 first
+  problem.work.forbidden_next = 0b010;  // first stop: cell 1 or 5
   problem.constraints = {{3, kNoCell, 20, kNever}, {5, kNoCell, 20, kNever}};
-  // 5 first, then back to 1. With 1 first it would rest on 3 or 5, which are barred from 20 on.
+  // The agent visits 5 first and then returns to 1. If it visited 1 first, it would have to rest on
+  // 3 or 5, which are barred from time 20 on.
   EXPECT_EQ(Agent(problem).cost(), 5 + 4);
 }
 
@@ -372,7 +378,7 @@ TEST(FreeOrderSipp, StopBarredTooSoonIsInfeasibleWithoutSearch) {
   EXPECT_EQ(agent.free.expanded(), 0);
 }
 
-// The door closes before an agent that has visited the stop behind it can return; all of the many
+// The door closes before an agent that has visited the stop behind it can return. All of the many
 // orders are infeasible.
 TEST(FreeOrderSipp, ClosingDoorIsInfeasibleWithFewLabels) {
   const Grid grid = grid_of({"........@.", "..........", "........@.", "........@."});
@@ -387,7 +393,7 @@ TEST(FreeOrderSipp, ClosingDoorIsInfeasibleWithFewLabels) {
   }
 }
 
-// The same door, closed for long: every path costs far more than the cutoff.
+// The same door, closed for a long time, so that every path costs far more than the cutoff.
 TEST(FreeOrderSipp, LongClosedDoorIsAboveCutoffWithFewLabels) {
   const Grid grid = grid_of({"........@.", "..........", "........@.", "........@."});
   FreeProblem problem = corridor(grid, {39}, 20);
@@ -404,8 +410,8 @@ TEST(FreeOrderSipp, LongClosedDoorIsAboveCutoffWithFewLabels) {
   EXPECT_LT(in_time.free.expanded(), 20'000);
 }
 
-// The short route to the destination is closed before the agent can have visited all stops. The
-// lower bound for the detour must keep the search from trying all orders.
+// The short route to the destination closes before the agent can have visited all stops. The lower
+// bound on the detour must prevent the search from trying all orders.
 TEST(FreeOrderSipp, ClosingDoorRaisesTheCostOfTheLastLeg) {
   const Grid grid = grid_of({"...........@.", ".@.@.@.@.@.@.", "...........@.", "@@@@@@@@@@.@.",
                              "...........@.", ".@@@@@@@@@@@.", "............."});
@@ -424,7 +430,7 @@ TEST(FreeOrderSipp, ClosingDoorRaisesTheCostOfTheLastLeg) {
     }
 }
 
-// The agent can rest on its destination only late, so any sequence is optimal.
+// The agent can rest on its destination only late, so every sequence is optimal.
 TEST(FreeOrderSipp, LateRestIsFoundWithoutEnumeratingOrders) {
   const Grid grid = grid_of({"..........", "..........", "..........", ".........."});
   for (const int n : {12, 24}) {
@@ -462,7 +468,7 @@ TEST(FreeOrderSipp, StopsWithoutAnswerWhenALimitIsReached) {
   EXPECT_EQ(agent.free.find(agent.goals, {}, memory, path), Outcome::kStopped);
 }
 
-// Memory suffices for the labels of one order only, and the agent may not rest where that order
+// Memory suffices only for the labels of one order, and the agent may not rest where that order
 // ends. The path back from there is no valid answer, because the other order is cheaper.
 TEST(FreeOrderSipp, PathFoundWithoutAllLabelsIsNotReturned) {
   constexpr int kSide = 700;
@@ -471,7 +477,7 @@ TEST(FreeOrderSipp, PathFoundWithoutAllLabelsIsNotReturned) {
   const Grid grid(kSide, kSide, passable);
   FreeProblem problem{&grid, 2, {1, 4}, {}, {{0, 1}, 0}, {{4, kNoCell, 30, 30}}};
   Agent agent(problem);
-  EXPECT_EQ(agent.cost(), 31);  // its three states have labels after this call
+  EXPECT_EQ(agent.cost(), 31);  // this call also creates labels for its three states
   SequenceStages both(agent.stops, {});
   const PathQuery query{problem.constraints};
   Limits limits;

@@ -10,19 +10,19 @@
 
 namespace grove::detail::testing {
 
-// Generates problems, determined by the seed. `conditional`: constraints of all kinds, not only
-// vertex and edge constraints.
+// Generates problems that depend only on the seed. `conditional`: uses constraints of all kinds,
+// not only vertex and edge constraints.
 class FreeProblems {
  public:
   FreeProblems(unsigned seed, bool conditional) : random_(seed), conditional_(conditional) {}
 
-  // A random number from 0 to bound - 1.
+  // Returns a random number from 0 to bound - 1.
   int below(int bound) { return static_cast<int>(random_() % static_cast<unsigned>(bound)); }
   Grid grid();
-  // A problem without constraints.
+  // Returns a problem without constraints.
   FreeProblem problem(const Grid& grid);
   Path walk(const Grid& grid) { return random_walk(grid, random_); }
-  // Adds a constraint that `path` probably violates.
+  // Adds a constraint that `path` is likely to violate.
   void make_harder(FreeProblem& problem, const Path& path);
 
  private:

@@ -16,10 +16,10 @@ namespace {
 
 struct FreePlace {
   Cell cell;
-  unsigned counted;  // stops
-  int last;          // the stop counted last, or -1
-  Mouth mouth;       // entrance of the corridor it is in; none outside, or inside since time 0
-  bool late;         // it arrived here later than all times by which it may not rest here
+  unsigned counted;  // bit i: stop i is counted as visited
+  int last;          // the stop counted last; -1: none
+  Mouth mouth;       // entrance by which it entered its corridor; none: see StepRules
+  bool late;         // it arrived late: StepRules::is_late()
 
   auto key() const { return std::tuple(cell, counted, last, mouth.end, mouth.inner, late); }
   bool operator<(const FreePlace& other) const { return key() < other.key(); }
@@ -44,7 +44,7 @@ class FreeLayers {
     });
   }
 
-  // Advances to `time`. Returns false if the reachable states no longer change.
+  // Advances to `time`. Returns false if the reachable states can no longer change.
   bool step(Time time) {
     next_.clear();
     for (const FreePlace& place : now_) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reference for single-agent search that chooses the order of the stops: by definition, time step
-// by time step, and by enumeration of orders.
+// Reference for single-agent search that chooses the order of the stops. Implements the definition,
+// one time step after another, or enumerates orders.
 #pragma once
 
 #include <optional>
@@ -25,10 +25,10 @@ struct FreeProblem {
   std::vector<Constraint> constraints;
 };
 
-// An instance with only this agent.
+// Returns an instance with only this agent.
 Instance instance_of(const FreeProblem& problem);
 
-// A problem and the library's objects for it. Not movable.
+// A problem with the corresponding objects of the library. Not movable.
 struct FreeAgent {
   explicit FreeAgent(const FreeProblem& given)
       : problem(given),
@@ -45,15 +45,15 @@ struct FreeAgent {
   SequenceStages goals;
 };
 
-// The least cost of a path that realizes a sequence of the class. Returns nullopt if there is no
-// path. An agent on a stop may or may not count it. It rests on its destination, or, without one,
-// on the stop counted last.
+// Returns the least cost of a path that realizes a sequence of the class, or nullopt if there is no
+// such path. An agent on a stop may or may not count it as visited. It rests on its destination or,
+// without one, on the stop that it counted last.
 std::optional<Time> free_reference_cost(const FreeProblem& problem);
 
-// Describes why `path` does not realize this sequence of all stops; empty if it does.
+// Returns the reason why `path` does not realize this sequence of all stops, or "" if it does.
 std::string path_error(const FreeProblem& problem, const Sequence& sequence, const Path& path);
 
-// All members of a class of n stops.
+// Returns all sequences of n stops in the class.
 std::vector<Sequence> members_of(const SequenceClass& work, int n);
 
 }  // namespace grove::detail::testing

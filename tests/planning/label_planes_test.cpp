@@ -24,7 +24,7 @@ std::int64_t page_faults() {
   return usage.ru_minflt;
 }
 
-// A search that touches every page of every plane.
+// Simulates a search that touches every page of every plane.
 void write_all(LabelPlanes<Mark>& planes) {
   for (int plane = 0; plane < kPlanes; ++plane) {
     ASSERT_TRUE(planes.open(plane, Limits()));
@@ -60,8 +60,8 @@ TEST(LabelPlanes, ReleaseWidelyUsedMemoryInNewSearch) {
   EXPECT_LT(resident_bytes(), before + kAll / 2);
 }
 
-// Each page faults only once, on a write. If a read came first, the read and the write would both
-// fault.
+// Each page faults only once, on its first write. If a read came first, both the read and the write
+// would fault.
 TEST(LabelPlanes, WriteToPageBeforeReadingIt) {
   constexpr int kPages = kSlots / kSlotsOnAPage;
   LabelPlanes<Mark> planes;
@@ -73,7 +73,7 @@ TEST(LabelPlanes, WriteToPageBeforeReadingIt) {
     planes.label(slot, 0) = {planes.stamp(), slot};
   }
   EXPECT_LT(page_faults() - before, kPages * 3 / 2);
-  planes.begin_search(kSlots);  // keeps the pages, because they are few
+  planes.begin_search(kSlots);  // keeps the pages, because there are few of them
   ASSERT_TRUE(planes.open(0, Limits()));
   const std::int64_t between = page_faults();
   for (int slot = 0; slot < kSlots; slot += kSlotsOnAPage)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Costs of legs while cells are barred for ever, compared with the costs of paths, order by order.
+// Compares the costs of legs while cells are barred for ever with the costs of paths, for each
+// order.
 #include "planning/late_costs.h"
 
 #include <gtest/gtest.h>
@@ -30,13 +31,13 @@ class LateCosts {
 
   int count() const { return stops_.count(); }
   const CostMatrix& plain() const { return stops_.cost_to_go().matrix(); }
-  // The cost matrix under these constraints; the plain one if they raise no cost.
+  // Returns the cost matrix under these constraints, or the plain one if they raise no cost.
   CostMatrix late(const std::vector<Constraint>& constraints, Time min_cost) {
     intervals_.assign(constraints);
     const auto matrix = late_cost_matrix(grid_, intervals_, stops_, min_cost);
     return matrix ? *matrix : plain();
   }
-  // The least cost of a path in this order; kNever if there is no path.
+  // Returns the least cost of a path in this order, or kNever if there is no path.
   Time path_cost(const Sequence& sequence, const std::vector<Constraint>& constraints) {
     const std::vector<TaskIndex> tasks(sequence.begin(), sequence.end());
     FixedOrderSipp search(grid_);
@@ -53,7 +54,8 @@ class LateCosts {
   SafeIntervals intervals_;
 };
 
-// A room with one door in the west and one in the east, and the destination inside.
+// A room with one door in the west and one in the east; the destination is inside. Numbers: first
+// cell of the row.
 const std::vector<std::string> kRoom = {
     "............",  //
     ".@@@@@@@@@@.",  // 12 ..
@@ -64,19 +66,19 @@ const std::vector<std::string> kRoom = {
 
 TEST(LateCosts, LastLegTakesTheDetour) {
   const Grid grid = grid_of(kRoom);
-  // From the corner to (0, 10) and (0, 0), and then to (3, 2).
+  // From the corner the agent visits (10, 0) and (0, 0) in some order, and then (2, 3).
   LateCosts costs(grid, 48, {10, 0}, 38);
   const Time least = 24;  // 48 -> 0 -> 10 -> 38 is 4 + 10 + 11; 48 -> 10 -> 0 -> 38: 14 + 10 + 5
   const std::vector<Constraint> shut = {{37, kNoCell, 20, kNever}};
   const CostMatrix late = costs.late(shut, least);
-  // If stop 1, (0, 0), comes last, the agent leaves it at 24 - 5 = 19 or later. So it is at the
-  // west door at 19 + 4 = 23 or later and must use the east door.
+  // If stop 1, (0, 0), is last, the agent leaves it at time 24 - 5 = 19 or later. It could
+  // therefore reach the west door only at 19 + 4 = 23 or later and must use the east door.
   EXPECT_EQ(costs.plain().to_end(1), 5);
   EXPECT_EQ(late.to_end(1), 11 + 3 + 9);
-  // Other legs may begin early, so their costs do not change.
+  // Other legs can start early, so their costs do not change.
   EXPECT_EQ(late.from_start(0), costs.plain().from_start(0));
   EXPECT_EQ(late.between(0, 1), costs.plain().between(0, 1));
-  // A door that stays open long enough, or opens again, changes nothing.
+  // If the door stays open long enough or opens again, nothing changes.
   EXPECT_EQ(costs.late({{37, kNoCell, 24, kNever}}, least).cost, costs.plain().cost);
   EXPECT_EQ(costs.late({{37, kNoCell, 2, 999}}, least).cost, costs.plain().cost);
 }
@@ -95,7 +97,7 @@ class LateCostsFuzz {
  public:
   explicit LateCostsFuzz(unsigned seed) : random_(seed) {}
 
-  // Returns the number of sequences whose bound the constraints raise.
+  // Returns the number of sequences for which the constraints raise the bound.
   int check(bool with_destination) {
     const Grid grid = random_grid();
     std::vector<Cell> cells;

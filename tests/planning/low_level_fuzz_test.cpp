@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FixedOrderSipp compared with a search over all time steps. GROVE_FUZZ_FACTOR multiplies the
+// Compares FixedOrderSipp with a search over all time steps. GROVE_FUZZ_FACTOR multiplies the
 // number of cases.
 #include <gtest/gtest.h>
 
@@ -24,10 +24,10 @@ using testing::reference_conflicts;
 using testing::reference_cost;
 using testing::SingleAgent;
 
-// Random problems on tiny maps, each made harder one constraint at a time.
+// Random problems on tiny maps, to which constraints are added one at a time.
 class Fuzzer {
  public:
-  // `conditional`: constraints of all kinds, not only vertex and edge constraints.
+  // `conditional`: uses constraints of all kinds, not only vertex and edge constraints.
   Fuzzer(unsigned seed, bool conditional) : random_(seed), conditional_(conditional) {}
 
   void run() {
@@ -136,7 +136,7 @@ TEST_P(FixedOrderSippFuzz, AgreesWithTimeExpandedSearch) {
     delayed += fuzzer.delayed;
     infeasible += fuzzer.infeasible;
   }
-  // Most cases must be non-trivial.
+  // Enough cases must be non-trivial.
   EXPECT_GT(delayed, GetParam() ? 2 * seeds : 5 * seeds);
   EXPECT_GT(infeasible, seeds / 2);
 }

@@ -27,7 +27,7 @@ std::vector<Mouth> mouths_of(const Grid& grid) {
   return mouths;
 }
 
-// A corridor constraint around the times at which `path` leaves a corridor, if it does.
+// Returns a traversal constraint around a time at which `path` leaves a corridor, if it does.
 Constraint random_traversal(const Path& path, const std::vector<Mouth>& mouths,
                             std::mt19937& random) {
   const auto steps = static_cast<int>(path.size());

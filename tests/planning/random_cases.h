@@ -10,26 +10,26 @@
 
 namespace grove::detail::testing {
 
-// A small map with doors, corridors, dead ends or loops.
+// Returns a small map with doors, corridors, dead ends or loops.
 Grid random_corridor_map(std::mt19937& random);
 
-// A map of at most six by four cells, its first one passable.
+// Returns a map of at most six by four cells. Its first cell is passable.
 Grid random_small_map(std::mt19937& random);
 
-// A random passable cell.
+// Returns a random passable cell.
 Cell random_cell(const Grid& grid, std::mt19937& random);
 
-// A path of at most `max` steps, some of them waits, from a random cell or from `start`.
+// Returns a path of at most `max` steps, including waits, from a random cell or from `start`.
 Path random_walk(const Grid& grid, std::mt19937& random, int max = 12);
 Path random_walk_from(Cell start, const Grid& grid, std::mt19937& random, int max = 12);
 
-// A vertex or edge constraint: often on the path, often on one of `goals` (not empty), sometimes
-// for ever.
+// Returns a vertex or edge constraint. Often it concerns the path or one of `goals` (not empty),
+// and sometimes it has no end.
 Constraint random_bar(const Grid& grid, const Path& path, const std::vector<Cell>& goals,
                       std::mt19937& random);
 
-// A constraint of one of the other kinds on paths. It probably affects an agent that took `path`
-// and may have to rest on one of `goals` (not empty).
+// Returns a path constraint of some other kind. It is likely to affect an agent that takes `path`
+// and might rest on one of `goals` (not empty).
 Constraint random_conditional_constraint(const Grid& grid, const Path& path,
                                          const std::vector<Cell>& goals, std::mt19937& random);
 

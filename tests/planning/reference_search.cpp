@@ -18,11 +18,11 @@ constexpr int kUnreached = std::numeric_limits<int>::max();
 struct State {
   Cell cell;
   std::size_t visited;
-  std::size_t mouth;  // entrance of the corridor it is in: index in Layers::mouths_
-  bool late;          // it arrived here later than all times by which it may not rest here
+  std::size_t mouth;  // entrance by which it entered its corridor: index in Layers::mouths_
+  bool late;          // it arrived late: StepRules::is_late()
 };
 
-// Fewest conflicts of a path to each state, layer by layer of time.
+// Computes the fewest conflicts of a path to each state, one layer per time step.
 class Layers {
  public:
   Layers(const Problem& problem, const NaiveConflicts& others)
@@ -36,7 +36,8 @@ class Layers {
       reach(now_, {problem.start, 0, 0, rules_.is_late(problem.start, 0)}, 0);
   }
 
-  // Fewest conflicts of a path that has visited all goals and rests on the last one from `time` on.
+  // Returns the fewest conflicts of a path that has visited all goals and rests on the last goal
+  // from `time` on.
   int conflicts_at_rest(Time time) const {
     const Cell cell = problem_.goals.back();
     int fewest = kUnreached;
@@ -46,7 +47,7 @@ class Layers {
     return fewest;
   }
 
-  // Advances to `time`. Returns false if the layers no longer change.
+  // Advances to `time`. Returns false if the layers can no longer change.
   bool step(Time time) {
     std::vector<int> next(now_.size(), kUnreached);
     for (Cell cell = 0; cell < problem_.grid->cell_count(); ++cell)
@@ -58,7 +59,7 @@ class Layers {
   }
 
  private:
-  // Lists the entrances of corridors if a constraint depends on them. Index 0 means no entrance.
+  // Lists the entrances of corridors if a constraint depends on them. Index 0 means "none".
   void find_mouths() {
     if (std::ranges::none_of(problem_.constraints, [](const Constraint& c) {
           return c.kind == ConstraintKind::kNoTraversal;

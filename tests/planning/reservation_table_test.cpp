@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ReservationTable, and FreeOrderSipp with reservations compared with the same search under
+// Tests ReservationTable, and compares FreeOrderSipp with reservations to the same search with
 // equivalent constraints. GROVE_FUZZ_FACTOR multiplies the number of cases.
 #include "planning/reservation_table.h"
 
@@ -81,7 +81,7 @@ void bar(const Path& path, std::vector<Constraint>& constraints) {
   constraints.push_back({path.back(), kNoCell, static_cast<Time>(path.size()) - 1, kNever});
 }
 
-// Compares every move and rest with all paths.
+// Compares the answer for every move and rest with all reserved paths.
 TEST(ReservationTable, AllowsArrivalAndRestOnlyOnFreePlaces) {
   const Grid grid = testing::grid_of({"...", "..."});
   const Path paths[] = {{0, 1, 1, 4, 5}, {2, 2, 2, 1, 0, 3}};
@@ -111,7 +111,7 @@ TEST(ReservationTable, AllowsArrivalAndRestOnlyOnFreePlaces) {
   }
 }
 
-// One agent with tasks among other agents on random walks, on a random map.
+// An agent with tasks among other agents that make random walks, on a random map.
 class Fuzzer {
  public:
   explicit Fuzzer(unsigned seed)
@@ -251,7 +251,7 @@ TEST(ReservationTable, LabelLimitStopsTheSearch) {
   AgentStops stops(instance, distances, 0);
   SequenceStages goals(stops, {});
   ReservationTable reservations(instance.grid());
-  Path late(300, 30);  // the other agent stays on a task for long
+  Path late(300, 30);  // the other agent stays on a task for a long time
   late.push_back(31);
   reservations.add(1, late);
   FreeOrderSipp search(instance.grid());

@@ -87,8 +87,8 @@ TEST_F(SafeIntervalsTest, EdgeConstraintsDelayOnlyTheirMove) {
   EXPECT_EQ(intervals_.last_move(2, 1, 9), 8);
 }
 
-// For each time: the first allowed move at that time or later, and the last one at that time or
-// earlier.
+// Compares, for each time, the first allowed move at that time or later and the last allowed move
+// at that time or earlier.
 TEST_F(SafeIntervalsTest, FirstAndLastMovesSkipEdgeConstraints) {
   constexpr Time kEnd = 24;
   std::mt19937 random(1);

@@ -56,7 +56,7 @@ TEST(Satisfies, DistinguishesTraversalFromTurningBack) {
   EXPECT_FALSE(satisfies(grid, {1, 0, 1, 2, 3}, leaves(3, 2, 0, kNever)));
 }
 
-// Around a loop: the agent leaves at the cell where it entered.
+// In a loop the agent leaves through the cell by which it entered.
 TEST(Satisfies, RecognizesTraversalOfLoop) {
   const Grid grid = grid_of({"..@", "...", "@.@"});
   const Constraint left{4, 3, 0, kNever, ConstraintKind::kNoTraversal};

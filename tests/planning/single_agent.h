@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fixture of the planning tests: one agent on a small map.
+// Fixture of the planning tests: an agent on a small map.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace grove::detail::testing {
 
-// One agent with a start, tasks in the order of visits, and an optional destination.
+// An agent with a start, tasks in the order of visits, and an optional destination.
 struct SingleAgent {
   SingleAgent(const Grid& grid, Cell start, const std::vector<Cell>& tasks,
               std::optional<Cell> destination);

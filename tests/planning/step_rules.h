@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rules of the constraints for an agent that moves step by step, for the reference searches.
+// Rules that the constraints impose on an agent that moves step by step, for the reference
+// searches.
 #pragma once
 
 #include <vector>
@@ -9,9 +10,9 @@
 
 namespace grove::detail::testing {
 
-// Besides its cell and the time, the state of an agent must hold the mouth by which it entered its
-// corridor (none if it is in no corridor, or has been inside since time 0), and whether it arrived
-// late at its cell (is_late()).
+// Evaluates constraints in the state of an agent. In addition to cell and time, the caller's state
+// must hold the mouth by which the agent entered its corridor (none if it is in no corridor or has
+// been inside since time 0), and whether it arrived late at its cell (is_late()).
 class StepRules {
  public:
   // `grid` and `constraints` must outlive this object.
@@ -19,14 +20,15 @@ class StepRules {
       : grid_(grid), constraints_(constraints) {}
 
   bool barred(Cell cell, Time time) const;
-  // Is the move that arrives at `time` barred to an agent that entered by `mouth`?
+  // Returns whether the move that arrives at `time` is barred to an agent that entered by `mouth`.
   bool move_barred(Cell from, Cell to, Mouth mouth, Time time) const;
   Mouth mouth_after(Cell from, Cell to, Mouth mouth) const;
-  // Is an arrival at `time` later than all times by which the agent may not rest on `cell`?
+  // Returns whether an arrival at `time` is later than all times by which the agent may not rest on
+  // `cell`.
   bool is_late(Cell cell, Time time) const;
-  // May an agent that arrived late rest here from `time` on?
+  // Returns whether an agent that arrived late may rest on `cell` from `time` on.
   bool may_rest(Cell cell, Time time) const;
-  // From this time on the rules no longer change.
+  // Time from which the rules no longer change.
   Time last_change() const;
 
  private:

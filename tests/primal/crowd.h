@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random dense instances on maps of medium size.
+// Random dense instances on medium-sized maps.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,13 +17,13 @@
 namespace grove::detail::testing {
 
 struct Crowd {
-  int size = 12;       // side of the square map, cells
+  int size = 12;       // side of the square map in cells
   int obstacles = 15;  // percent
   int agents = 20;
   int tasks = 20;
   int no_destination = 0;  // percent of the agents
 
-  // GoogleTest prints it in the names of tests.
+  // GoogleTest prints this text in test names.
   friend void PrintTo(const Crowd& crowd, std::ostream* out) {
     *out << fmt::format("{} agents, {} tasks, size {}, {} % obstacles, {} % without destination",
                         crowd.agents, crowd.tasks, crowd.size, crowd.obstacles,
@@ -31,7 +31,7 @@ struct Crowd {
   }
 };
 
-// Cells of the largest connected component.
+// Returns the cells of the largest connected component.
 inline std::vector<Cell> largest_part(const Grid& grid) {
   std::vector<Cell> largest;
   for (Cell cell = 0; cell < grid.cell_count(); ++cell) {
@@ -45,9 +45,9 @@ inline std::vector<Cell> largest_part(const Grid& grid) {
   return largest;
 }
 
-// Agents start and end on distinct random cells of one connected component. An agent without a
-// destination has a task on its end cell. The other tasks are on other cells, each for one or two
-// agents.
+// Returns an instance in which agents start and end on distinct random cells of one connected
+// component. An agent without a destination has a task on its end cell. All other tasks are on
+// other cells, each for one or two agents.
 inline Instance random_crowd(const Crowd& crowd, std::uint64_t seed) {
   fuzz::Random random(seed);
   std::vector<bool> passable;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// First violation that the checker finds in a plan.
+// First violation that the checker finds in a plan or solution.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace grove::detail::testing {
 
-// Returns "" if the plan is valid.
+// Returns the first violation, or "" if the plan is valid.
 inline std::string first_violation(const Instance& instance, const Plan& plan) {
   Solution claim;
   claim.status = status_of(plan.cost, 0, claim.omega);

@@ -28,7 +28,7 @@ using Outcome = LacamWithRestarts::Outcome;
 
 constexpr std::int64_t kWithoutEnd = std::numeric_limits<std::int64_t>::max();
 
-// A search with its instance and problem.
+// A search with its own instance and problem.
 struct Trial {
   explicit Trial(const Instance& the_instance, std::uint64_t seed = 0)
       : instance(the_instance),
@@ -53,7 +53,7 @@ void expect_valid(const Instance& instance, const std::optional<Plan>& plan) {
   EXPECT_TRUE(violations.empty()) << violations[0].json_pointer << ": " << violations[0].message;
 }
 
-// Runs to the end and returns the cost of the plan; expects a valid plan.
+// Runs the search to its end, expects a valid plan and returns its cost.
 Cost solved_cost(const Instance& instance) {
   Trial run(instance);
   EXPECT_EQ(run.run(), Outcome::kFound);
@@ -91,7 +91,7 @@ TEST(LacamWithRestarts, AgentsSwapAtABay) {
 }
 
 TEST(LacamWithRestarts, AgentLeavesADeadEndInWhichAnotherHasATask) {
-  // a1 reaches its goal at the end of the dead end before a0 has been there: a1 must come out
+  // a1 reaches its goal at the end of the dead end before a0 has been there, so a1 must come out
   // again.
   solved_cost(instance_of({"@.@@@@@@@@", "..........", "@.@@@@@@@@", "@.@@@@@@@@"},
                           {{{9, 1}, Position{0, 1}, {{1, 3}}}, {{1, 0}, Position{1, 3}}}));
@@ -115,7 +115,7 @@ TEST(LacamWithRestarts, RefusesIncompleteOrders) {
     EXPECT_THROW(LacamWithRestarts(problem, orders, 0), std::invalid_argument);
 }
 
-// The search must find a plan for exactly the instances for which the oracle finds one.
+// The search must find a plan for an instance if and only if the oracle finds one.
 TEST(LacamWithRestarts, SolvesExactlyTheFeasibleTinyInstances) {
   int solved = 0;
   int impossible = 0;
@@ -139,7 +139,7 @@ TEST(LacamWithRestarts, SolvesExactlyTheFeasibleTinyInstances) {
 
 class DenseInstances : public ::testing::TestWithParam<Crowd> {};
 
-// A few random dense instances have no plan, or none that is found soon.
+// A few of these random dense instances have no plan, or none that is found soon.
 TEST_P(DenseInstances, GetAValidPlan) {
   const std::uint64_t cases = testing::fuzz_rounds(10);
   std::uint64_t unsolved = 0;
@@ -178,8 +178,8 @@ TEST(LacamWithRestarts, PlanDependsOnTheSeedButNotOnTheSlices) {
   EXPECT_FALSE(same_plan(*whole.search.plan(), *other.search.plan()));
 }
 
-// Agents that would have to pass each other in a tree without room: no plan, and too many joint
-// states to enumerate.
+// Agents would have to pass each other in a tree without room. There is no plan, and there are too
+// many joint states to enumerate.
 Instance infeasible_instance() {
   return instance_of({".........", "@.@.@.@.@", "@.@.@.@.@"}, {{{0, 0}, Position{8, 0}},
                                                                {{8, 0}, Position{0, 0}},

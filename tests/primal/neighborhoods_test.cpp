@@ -13,7 +13,8 @@
 namespace grove::detail {
 namespace neighborhoods_test {
 
-// `count` agents that cross an open square from left to right, each to a row of its own.
+// Returns an instance with `count` agents that cross an open square from left to right, each in its
+// own row.
 Instance crossing(int count) {
   std::vector<testing::AgentSpec> agents;
   for (int i = 0; i < count; ++i)
@@ -21,7 +22,7 @@ Instance crossing(int count) {
   return testing::instance_of(std::vector<std::string>(12, std::string(12, '.')), agents);
 }
 
-// The same instance with a collision-free path for each agent.
+// An instance made by crossing(), with a collision-free path for each agent.
 struct Planned {
   explicit Planned(int count) : instance(crossing(count)) {
     PrioritizedPlanning planning(instance.world(), low_level, paths, random, tuning);
@@ -79,7 +80,7 @@ TEST_P(NeighborhoodsTest, HoldDistinctAgentsAndGrowWithoutSuccess) {
   EXPECT_EQ(largest, agents);
 }
 
-// All multipliers are zero, but the reduced cost of one agent's path is positive.
+// All multipliers are zero, but the path of one agent has a positive reduced cost.
 TEST(Neighborhoods, PreferAgentsOfHighReducedCost) {
   Planned planned(12);
   Neighborhoods neighborhoods = planned.neighborhoods();

@@ -85,9 +85,9 @@ TEST(PibtGenerator, ReturnsNothingIfConstraintsAreImpossible) {
     return generator.step(agents.places, agents.priority, orders, generator_random).empty();
   };
   EXPECT_TRUE(fails({{0, 1}, {1, 1}}));   // two agents on one cell
-  EXPECT_TRUE(fails({{0, 1}, {1, 0}}));   // a swap
+  EXPECT_TRUE(fails({{0, 1}, {1, 0}}));   // they swap cells
   EXPECT_TRUE(fails({{1, 0}}));           // the other agent cannot leave
-  EXPECT_FALSE(fails({{0, 1}, {1, 2}}));  // the agents follow each other
+  EXPECT_FALSE(fails({{0, 1}, {1, 2}}));  // they follow each other
 }
 
 TEST(PibtGenerator, AgentOfHigherPriorityPushesTheOther) {
@@ -103,7 +103,7 @@ TEST(PibtGenerator, AgentOfHigherPriorityPushesTheOther) {
 }
 
 TEST(PibtGenerator, BacksOffToTheJunctionWhereTwoMustPass) {
-  // a0 and a1 face each other in the corridor; the only bay is behind a0.
+  // a0 and a1 face each other in the corridor, and the only bay is behind a0.
   const Instance instance =
       instance_of({".......", "@.@@@@@"}, {{{2, 0}, Position{6, 0}}, {{3, 0}, Position{0, 0}}});
   Agents agents(instance);

@@ -9,8 +9,8 @@
 
 namespace grove::detail::testing {
 
-// Dual solution of a Lagrangian bound after at most `rounds` rounds. Returns nullptr if there is
-// none.
+// Returns the dual solution of a Lagrangian bound after at most `rounds` rounds, or nullptr if
+// there is none.
 inline std::shared_ptr<const DualSolution> dual_solution_of(const Instance& instance,
                                                             const AgentStopsCache& stops,
                                                             int rounds) {

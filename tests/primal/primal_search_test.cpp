@@ -23,7 +23,7 @@ namespace primal_search_test {
 using testing::first_violation;
 using testing::instance_of;
 
-// A primal search with its instance and problem.
+// A primal search with its own instance and problem.
 struct Search {
   explicit Search(const Instance& the_instance, std::uint64_t seed = 0,
                   Techniques techniques = Techniques::defaults(), const Tuning& tuning = {})
@@ -32,7 +32,7 @@ struct Search {
         stops(instance, problem.distances),
         primal(problem, stops, seed, techniques, tuning) {}
 
-  // The plans of `steps` steps, each checked.
+  // Runs `steps` steps and returns the plans found, each checked.
   std::vector<Plan> plans(int steps) {
     std::vector<Plan> result;
     for (int step = 0; step < steps; ++step)
@@ -89,7 +89,7 @@ TEST(PrimalSearch, SameSeedGivesTheSamePlans) {
   }
 }
 
-// After any limit the search resumes in a consistent state.
+// After a stop at any limit the search resumes from a consistent state.
 TEST(PrimalSearch, ResumesAfterAnyLimit) {
   std::mt19937 random(1);
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
@@ -119,7 +119,7 @@ TEST(PrimalSearch, DoesNothingAfterTheDeadline) {
 }
 
 TEST(PrimalSearch, FailedAgentIsPlannedBeforeItsBlockingAgents) {
-  // a0 has the shorter path and is planned first; its destination encloses a1.
+  // a0 has the shorter path and is planned first, but at its destination it encloses a1.
   const Instance instance = instance_of({"......", "@@@.@@", "@@@.@@"},
                                         {{{2, 0}, Position{3, 1}}, {{3, 2}, Position{0, 0}}});
   for (const bool keeps : {false, true}) {
@@ -133,8 +133,8 @@ TEST(PrimalSearch, FailedAgentIsPlannedBeforeItsBlockingAgents) {
   }
 }
 
-// A failed attempt is continued unless the same agent fails again. After one label each low-level
-// search accepts any path.
+// A failed attempt continues until the same agent fails a second time. After one label each
+// low-level search accepts any path.
 TEST(PrimalSearch, EveryPlanIsValidWithMinimalLabelLimits) {
   Tuning tuning;
   tuning.pp_resume_labels = 0;
@@ -166,7 +166,7 @@ TEST(PrimalSearch, IsOptimalWhenEveryAgentHasItsIndividualPath) {
   EXPECT_EQ(search.primal.work(), work);
 }
 
-// Two columns of agents that change sides through a wall with two doors.
+// Returns two columns of agents that change sides through a wall with two doors.
 Instance doors() {
   std::vector<std::string> rows(8, "....@....");
   rows[2] = rows[5] = ".........";
@@ -187,7 +187,7 @@ TEST(PrimalSearch, ImprovesItsFirstPlan) {
   EXPECT_GT(search.primal.counts().neighborhoods, 100);
 }
 
-// Dual solutions arrive during the search.
+// Passes dual solutions to the search while it runs.
 TEST(PrimalSearch, UsesDualSolutionsRepeatably) {
   const Instance instance = doors();
   Tuning tuning;
@@ -208,7 +208,7 @@ TEST(PrimalSearch, UsesDualSolutionsRepeatably) {
   without.plans(300);
   EXPECT_NE(without.primal.work(), work[0].back());
 
-  tuning.lagrangian_lns_max_gap = 0;  // no gap is that small
+  tuning.lagrangian_lns_max_gap = 0;  // above any real gap
   Search too_far(instance, 1, Techniques::defaults(), tuning);
   too_far.primal.use(testing::dual_solution_of(instance, too_far.stops, 60));
   too_far.plans(300);
@@ -234,8 +234,8 @@ TEST(PrimalSearch, EveryPlanWithDualSolutionsIsValid) {
   EXPECT_GT(with_dual, 50);
 }
 
-// Record-to-record travel accepts slightly worse plans, reports none of them, and finds plans that
-// pure descent misses.
+// Record-to-record travel accepts slightly worse plans but does not report them. It finds plans
+// that pure descent misses.
 TEST(PrimalSearch, AcceptsSlightlyWorsePlansToImproveFurther) {
   const Instance instance = doors();
   int better = 0, worse = 0;
@@ -261,7 +261,7 @@ TEST(PrimalSearch, RestartsWhenItStalls) {
   EXPECT_GT(search.primal.counts().attempts, 2);
 }
 
-// Half of the passable cells are occupied: the first attempt of prioritised planning fails.
+// Half of the passable cells are occupied, so that the first attempt of prioritised planning fails.
 Instance dense_instance(std::uint64_t seed) {
   return testing::random_crowd({.agents = 50, .tasks = 50, .no_destination = 20}, seed);
 }
@@ -340,7 +340,7 @@ TEST(PrimalSearch, FirstPlanSearchResumesAfterAnyLimit) {
   }
 }
 
-// LaCAM stops before the memory limit is reached; the other searches continue.
+// LaCAM stops near the memory limit; all other searches continue.
 TEST(PrimalSearch, MemoryShortageEndsOnlyLacam) {
 #ifdef GROVE_SANITIZERS_MEMORY
   GTEST_SKIP() << "the sanitizer's own memory fills the limit";
@@ -351,7 +351,7 @@ TEST(PrimalSearch, MemoryShortageEndsOnlyLacam) {
   testing::ManualClock clock(limits);
   limits.set_memory_limit(resident_bytes() + (std::size_t{1} << 20));
   for (int step = 0; step < 1000 && search.primal.counts().attempts < 3; ++step) {
-    clock.advance(std::chrono::seconds(1));  // so that the memory is measured at every step
+    clock.advance(std::chrono::seconds(1));  // so that every step measures the memory
     search.primal.step(limits);
   }
   EXPECT_GE(search.primal.counts().attempts, 3);
@@ -359,7 +359,7 @@ TEST(PrimalSearch, MemoryShortageEndsOnlyLacam) {
   EXPECT_FALSE(search.primal.expects_plan());
 }
 
-// Plans of LaCAM are of high cost: prioritised planning continues, and its plan is taken.
+// LaCAM's plans have a high cost, so prioritised planning continues, and its plan is adopted.
 TEST(PrimalSearch, AdoptedPlanDoesNotEndPrioritisedPlanning) {
   int by_prioritized_planning = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
@@ -410,7 +410,7 @@ TEST(PrimalSearch, AdoptsABetterPlan) {
   Plan good = [&] { return Search(instance, 1).plans(400).back(); }();
   const Plan poor = [&] { return Search(instance, 2).plans(400).front(); }();
   ASSERT_LT(good.cost, poor.cost);
-  good.agents[0].path.push_back(good.agents[0].path.back());  // a file may contain the final rest
+  good.agents[0].path.push_back(good.agents[0].path.back());  // files can contain the final rest
   for (const int steps : {0, 1, 5}) {
     Search search(instance, 3);
     search.plans(steps);

@@ -24,7 +24,7 @@ using testing::instance_of;
 using testing::random_crowd;
 using Outcome = TrafficGuidedLacam::Outcome;
 
-// A plan of LaCAM, and a guided search to which its traffic was added.
+// A LaCAM plan, and a guided search to which the traffic of this plan was added.
 struct Trial {
   explicit Trial(const Instance& the_instance, std::uint64_t seed = 0)
       : instance(the_instance),
@@ -37,7 +37,7 @@ struct Trial {
     guided.learn(*first);
   }
 
-  // Runs to the end of the round.
+  // Runs until the end of the round.
   Outcome run(std::int64_t slice) {
     for (;;)
       if (const Outcome outcome = guided.run(limits, slice); outcome != Outcome::kWorking)
@@ -53,7 +53,7 @@ struct Trial {
   std::optional<Plan> first;
 };
 
-// The costs of the plans of `rounds` rounds, each checked; -1 for a round without a plan.
+// Returns the cost of the plan of each round (-1: no plan), after checking the plans.
 std::vector<Cost> costs(Trial& trial, int rounds, std::int64_t slice = 4000) {
   std::vector<Cost> result;
   for (int round = 0; round < rounds; ++round) {
@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, GuidedDenseInstances,
                                            Crowd{.agents = 50, .tasks = 50},
                                            Crowd{.agents = 40, .tasks = 60, .no_destination = 40}));
 
-// Instances of all kinds: roads, turns, work, idle agents.
+// Instances of all kinds: roads, turning agents, tasks with a duration, idle agents.
 TEST(TrafficGuidedLacam, EveryPlanOfTinyInstancesIsValid) {
   int found = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
@@ -141,7 +141,7 @@ TEST(TrafficGuidedLacam, StopsBeforeTheMemoryLimitIsReached) {
   EXPECT_EQ(limits.reason(), StopReason::kNone);
 }
 
-// An agent whose guide leads nowhere still reaches its goal.
+// An agent reaches its goal even if its guide does not lead there.
 TEST(Lacam, FindsAPlanDespiteAUselessGuide) {
   const Instance instance =
       instance_of({"....", "...."},

@@ -11,7 +11,8 @@ namespace traffic_test {
 
 using testing::instance_of;
 
-// Two paths of equal length around a block on cells 0 to 14, and distance fields to any cell.
+// Two paths of equal length around a block, from cell 0 to cell 14, and distance fields to any
+// cell.
 struct Block {
   Block() { traffic.update_edge_costs(); }
   DistanceField field(Place to) {
@@ -30,7 +31,7 @@ struct Block {
   const Path above{5, 0, 1, 2, 3, 4, 9};
 };
 
-// Worlds of all kinds: grids, one-way and two-way roads, agents that turn or work.
+// Worlds of all kinds: grids, one-way and two-way roads, turning agents, tasks with a duration.
 TEST(Traffic, StepsCostEightWithoutTraffic) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const Instance instance = fuzz::random_instance(seed).build();
@@ -84,7 +85,7 @@ TEST(Traffic, FadesToNothingWithFactorZero) {
   EXPECT_EQ(block.field(9), before);
 }
 
-// The edge cost is capped so that the bucket queue can hold it.
+// The edge cost is capped, because the bucket queue cannot hold larger costs.
 TEST(Traffic, EdgeCostIsCapped) {
   Block block;
   for (int i = 0; i < 10'000; ++i) block.traffic.add(block.above, 1);

@@ -23,7 +23,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-// Two agents that must pass each other on three by two cells, the first with two tasks.
+// Two agents that must pass each other on a 3 x 2 grid. The first agent has two tasks.
 Instance two_agents() {
   InstanceBuilder builder{Map(Grid(3, 2, std::vector<bool>(6, true)))};
   builder.add_agent("a", Position{0, 0}, Position{2, 0});
@@ -56,7 +56,7 @@ std::vector<std::string> lines_of(const fs::path& file) {
 
 class Certificates : public ::testing::Test {
  protected:
-  // Lines of the certificate made from the records so far, without the head.
+  // Returns the lines of the certificate made from the records so far, without its head.
   std::vector<std::string> made(Cost claimed) {
     recorder_.flush();
     certificate_ = write_certificate(instance_, std::array{part_}, claimed, file_);
@@ -167,7 +167,7 @@ TEST_F(Certificates, AreNotMadeFromInvalidRecordFiles) {
   EXPECT_FALSE(fs::exists(file_));
 }
 
-// Records that a killed process had not yet written are missing; the others are used.
+// Records that a killed process did not write completely are missing; the complete ones are used.
 TEST_F(Certificates, OfTruncatedRecordsUseTheCompleteOnes) {
   recorder_.tree(tree_);
   recorder_.flush();

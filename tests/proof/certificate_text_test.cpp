@@ -20,7 +20,7 @@ namespace certificate_text_test {
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
-// Two agents with goals, one without, and a task on two by two cells.
+// Three agents, two with goals and one without, and a task, on a 2 x 2 grid.
 Instance three_agents() {
   InstanceBuilder builder{Map(Grid(2, 2, std::vector<bool>(4, true)))};
   builder.add_agent("a", Position{0, 0}, Position{1, 0});
@@ -40,7 +40,7 @@ class CertificateTexts : public ::testing::Test {
     folder_.write("c.proof", bytes);
     return read_certificate(folder_ / "c.proof", instance_, max_splits);
   }
-  // Message of the refusal, without the file's name.
+  // Returns the message of the refusal, without the file name.
   std::string refusal(const std::string& bytes, std::int64_t max_splits = 100) const {
     try {
       read(bytes, max_splits);
@@ -51,7 +51,7 @@ class CertificateTexts : public ::testing::Test {
     }
     return "it was read";
   }
-  // The same for a certificate with this proof of its theorem, which begins in line 5.
+  // Like refusal(), for a certificate whose theorem has this proof, which starts in line 5.
   std::string refusal_of_proof(const std::string& proof) const {
     return refusal(head() + "theorem 4\n" + proof + "end\n");
   }
@@ -60,7 +60,7 @@ class CertificateTexts : public ::testing::Test {
   const Instance instance_ = three_agents();
 };
 
-// Every construct of the grammar.
+// Contains every construct of the grammar.
 constexpr std::string_view kAll =
     "lemma inf 0 1\ndemand 1 bar 2 0 inf\njoint\n"
     "lemma 3 1\nleaf\n"
@@ -168,7 +168,7 @@ TEST_F(CertificateTexts, AreRefusedIfTooLarge) {
               "uncompressed");
 }
 
-// A certificate with one byte changed is read as it is, or refused.
+// A certificate with one changed byte must be either read or refused.
 TEST_F(CertificateTexts, AreReadOrRefusedWithAnyByteChanged) {
   const std::string text = head() + std::string(kAll);
   std::size_t refused = 0;
@@ -185,7 +185,7 @@ TEST_F(CertificateTexts, AreReadOrRefusedWithAnyByteChanged) {
   EXPECT_GT(refused, text.size() / 2);
 }
 
-// A proof as deep as it is long.
+// A proof whose depth equals its length.
 TEST_F(CertificateTexts, CanBeDeeplyNested) {
   std::string proof;
   for (int i = 0; i < 100'000; ++i) proof += "split 0 bar 0 1 1 | 1 bar 0 1 1\nleaf\n";

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs the checkers on an instance and the text of a certificate."""
+"""Runs the certificate checkers on an instance and the text of a certificate."""
 import contextlib
 import functools
 import importlib.util
@@ -16,17 +16,17 @@ SMALL = Path(__file__).resolve().parents[2] / "docs/proof_checker.py"
 
 
 def main(suite):
-    """Runs the tests of a file whose first argument is the path of grove-verify."""
+    """Runs the tests of `suite`. The first command-line argument is the path of grove-verify."""
     global VERIFY
     VERIFY = Path(sys.argv.pop(1)).resolve()
     suite.main()
 
 
 class Verdict:
-    """Exit code and output of a checker, its processor time in seconds and its memory peak in bytes."""
+    """Holds a checker's exit code, output, processor time in seconds and memory peak in bytes."""
 
     def __init__(self, command):
-        Path("/proc/self/clear_refs").write_text("5")  # the memory peak of a child starts from that of its parent
+        Path("/proc/self/clear_refs").write_text("5")  # the measured peak of a child starts at that of its parent
         with tempfile.TemporaryFile() as out:
             process = subprocess.Popen(command, stdout=out, stderr=subprocess.STDOUT)
             _, status, usage = os.wait4(process.pid, 0)
@@ -34,11 +34,12 @@ class Verdict:
             out.seek(0)
             self.text = out.read().decode()
         self.seconds = usage.ru_utime + usage.ru_stime
-        self.memory = 1024 * usage.ru_maxrss  # in bytes, an upper bound
+        self.memory = 1024 * usage.ru_maxrss  # an upper bound
 
 
 def verify(instance, certificate, *options):
-    """Runs grove-verify. instance: an Instance, or the path of its file; certificate: text or bytes."""
+    """Runs grove-verify and returns its Verdict. instance: an Instance, or the path of its file; certificate: text
+    or bytes."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         proof = folder / "proof"
@@ -61,20 +62,21 @@ def _small():
 
 
 def small_checker(instance, certificate):
-    """Runs docs/proof_checker.py in this process, because starting Python takes longer than a check."""
+    """Runs docs/proof_checker.py in this process, because starting Python takes longer than a check. Returns a
+    Result."""
     output = io.StringIO()
     with tempfile.TemporaryDirectory() as name, contextlib.redirect_stdout(output):
         (Path(name) / "proof").write_text(certificate)
         path = instance if isinstance(instance, Path) else instance.write(Path(name))
         try:
             _small().main(path, Path(name) / "proof")
-        except (SystemExit, Exception) as refused:  # a traceback also counts as a refusal
+        except (SystemExit, Exception) as refused:  # a traceback counts as a refusal, too
             return Result(1, f"{refused}\n")
     return Result(0, output.getvalue())
 
 
 def small_checker_within(memory, instance, certificate):
-    """Runs docs/proof_checker.py as a process of its own, with a memory limit of `memory` bytes."""
+    """Runs docs/proof_checker.py in a separate process with a limit of `memory` bytes."""
     code = f"import sys; sys.path.insert(0, {str(SMALL.parent)!r}); import proof_checker as checker; checker.MEMORY = {memory}; checker.run(*sys.argv[1:])"
     with tempfile.TemporaryDirectory() as name:
         (Path(name) / "proof").write_bytes(certificate)
@@ -82,5 +84,5 @@ def small_checker_within(memory, instance, certificate):
 
 
 def following_note(following):
-    """Returns the end of a verdict that states whether following is forbidden."""
+    """Returns the end of a verdict, which states that following is forbidden if it is."""
     return "" if following else ", where following is forbidden"

@@ -22,7 +22,7 @@ RULES = ("rest", "pass", "stop", "lemma", "later", "joint")
 
 
 def instances(count, kinds=KINDS, first=0):
-    """Yields (rng, kind, instance, following, least cost), cycling through the kinds."""
+    """Yields `count` times FACTOR tuples (rng, kind, instance, following, least cost), cycling through the kinds."""
     for seed in range(first, first + int(count * FACTOR)):
         rng = random.Random(seed)
         kind = kinds[seed % len(kinds)]
@@ -37,7 +37,7 @@ def raised(certificate, by=1):
 
 
 def mutants(rng, certificate, count):
-    """Yields certificates with one random change each and a theorem whose bound is 1 higher."""
+    """Yields certificates with one random change each, whose theorem claims a bound higher by 1."""
     lines = raised(certificate).split("\n")[:-1]
     for _ in range(count):
         mutant = list(lines)
@@ -96,7 +96,7 @@ class Generated(unittest.TestCase):
 
 
     def test_lemma_bounds_are_exact_with_many_stops(self):
-        """Checks agents with 12 stops, for which not all sets of stops are examined."""
+        """Checks agents with 12 stops, for which the checker does not examine all sets of stops."""
         for seed in range(int(2 * FACTOR)):
             rng = random.Random(3 * 10**6 + seed)
             world = World(rng.choice([["............."], ["......", ".@@@@.", "......"], [".......", "@.@.@.@", "@.@.@.@"]]))
@@ -157,7 +157,7 @@ class Generated(unittest.TestCase):
 
     @staticmethod
     def simple(certificate):
-        """Returns whether each split is valid without `following no`."""
+        """Returns whether each split of the certificate is also valid without `following no`."""
         return all(len(set(re.findall(r"bar \d+ (\d+)", line))) == 1 for line in certificate.split("\n") if " bar " in line)
 
 

@@ -36,7 +36,7 @@ inline bool grove_mutant(int number) {
 
 
 def read_list():
-    """Returns [(number, file, before, old, new, parts)]."""
+    """Returns the entries of mutants.txt as [(number, file, before, old, new, parts)]."""
     mutants, file, parts = [], None, ()
     for line in LIST.read_text(encoding="utf-8").splitlines():
         if not line or line.startswith("#"):
@@ -52,7 +52,7 @@ def read_list():
 
 
 def pattern(text):
-    """Returns a regular expression that matches `text` with any white space between its words."""
+    """Returns a regular expression that matches `text` with any white space between its tokens."""
     return r"\s*".join(re.escape(word) for word in re.findall(r"\w+|[^\w\s]", text))
 
 
@@ -69,7 +69,7 @@ def mutate(text, number, before, old, new):
 
 
 def write_if_new(file, text):
-    """Writes a file unless it has this content, so that unchanged files are not built again."""
+    """Writes a file unless it already has this content, so that unchanged files are not rebuilt."""
     file.parent.mkdir(parents=True, exist_ok=True)
     if not file.exists() or file.read_text(encoding="utf-8") != text:
         file.write_text(text, encoding="utf-8")
@@ -87,7 +87,7 @@ def copy_sources(folder, mutants):
     write_if_new(folder / "include/grove_mutant.h", HELPER)
     for file, text in texts.items():
         include = '#include "grove_mutant.h"\n'
-        # In a header after #pragma once.
+        # In a header the include must follow #pragma once.
         write_if_new(folder / file, text.replace("#pragma once\n", "#pragma once\n" + include, 1)
                      if file.endswith(".h") else include + text)
 
@@ -109,7 +109,7 @@ def trial(folder, number, parts, count, seconds):
 
 
 def summed(of_parts, usual):
-    """Sums the counts of all parts, without the refusals and errors that also occur without a bug."""
+    """Sums the counts of all parts, minus the refusals and errors that also occur without a bug."""
     sums = collections.Counter()
     for part, counts in of_parts.items():
         sums.update(counts)
@@ -160,7 +160,7 @@ HEAD = ("| | where | bug | tried on | claims | false | refused or short | false 
 
 
 def show(mutants, counts):
-    """Prints the tables, one per group."""
+    """Prints one table for each group."""
     for group in GROUPS:
         rows = [row(m, c) for m, c in zip(mutants, counts) if group_of(c) == group]
         if rows:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Writes certificates of tiny instances: a conflict-based search that records its steps, by any of the rules."""
+"""Writes certificates of tiny instances by a conflict-based search that records its steps and uses any of the rules."""
 import itertools
 import random
 
@@ -16,8 +16,10 @@ class TooLong(Exception):
 
 
 class Prover:
-    """Proves bounds. rules: the optional rules to use at random: pass, rest, stop, lemma, later, joint. known:
-    costs and paths by (agent, constraints), which provers may share."""
+    """Proves bounds and writes the proofs.
+
+    rules: optional rules that it uses at random: pass, rest, stop, lemma, later, joint. known: cache of costs and
+    paths by (agent, constraints), which several provers can share."""
 
     def __init__(self, instance, rng, following=True, rules=(), most=3000, known=None):
         self.instance, self.rng, self.following, self.rules, self.most = instance, rng, following, set(rules), most
@@ -30,7 +32,7 @@ class Prover:
         return self.known[agent, own]
 
     def certificate(self, bound):
-        """Returns a certificate that no plan costs less than `bound`. Raises TooLong."""
+        """Returns a certificate that no plan costs less than `bound`. Raises TooLong if the proof is too long."""
         all_agents = list(range(len(self.instance.agents)))
         if "lemma" in self.rules:
             for _ in range(self.rng.randint(0, 3)):
@@ -46,7 +48,7 @@ class Prover:
         return found
 
     def lemma(self, agents, constraints, bound=None):
-        """Adds a lemma and returns its number. Returns None if no proof is found."""
+        """Adds a lemma and returns its number, or None if no proof is found."""
         constraints = [d for d in constraints if d[0] in agents]
         try:
             bound = self.best(agents, constraints) if bound is None else bound
@@ -58,7 +60,7 @@ class Prover:
         return len(self.lemmas) - 1
 
     def best(self, agents, constraints):
-        """Returns the highest bound that a proof of limited size shows; it is mostly the least cost."""
+        """Returns the highest bound for which a proof of limited size is found, mostly the least cost."""
         found = sum(self.least(agent, constraints)[0] for agent in agents)
         for bound in itertools.count(found if found < INF else INF):
             if bound == INF:
@@ -69,7 +71,7 @@ class Prover:
                 return bound
 
     def proof(self, agents, bound, constraints):
-        """Returns the lines of a proof. Raises TooLong after `most` splits, because a proof of a false claim would
+        """Returns the lines of a proof. Raises TooLong after `most` splits, because the proof of a false claim would
         not end."""
         self.left = self.most
         found, todo = [], [constraints]
@@ -81,7 +83,7 @@ class Prover:
         return found
 
     def step(self, agents, bound, constraints):
-        """Returns the lines of one rule, and the sets of constraints under which proofs must follow."""
+        """Returns the lines of one rule, and the sets of constraints for which proofs must follow."""
         costs = {agent: self.least(agent, constraints)[0] for agent in agents}
         if sum(costs.values()) >= bound:
             return ["leaf"], []
@@ -110,7 +112,8 @@ class Prover:
         return [f"split {text(one)} | {text(two)}"], sides
 
     def cover(self, costs, names):
-        """Returns the least sum of costs that satisfies the lemmas, or the sum of `costs` plus 8 if it is higher."""
+        """Returns the least sum of agent costs that satisfies the lemmas, or the sum of `costs` plus 8 if that is
+        less."""
         if any(self.lemmas[n][1] == INF for n in names):
             return INF
         total, spare = sum(costs.values()), list(costs)
@@ -147,7 +150,7 @@ class Prover:
         return (agent, "stop", k, j), (agent, "nostop", k, j)
 
     def conflict(self, agents, constraints):
-        """Returns a split on a conflict of the least-cost paths. Each side forbids one of the two paths."""
+        """Returns a split on a random conflict of the least-cost paths. Each side excludes one of the two paths."""
         paths = {agent: self.least(agent, constraints)[1] for agent in agents}
         latest = max(map(len, paths.values())) + 1
         at = {agent: path + [path[-1]] * (latest - len(path)) for agent, path in paths.items()}
@@ -169,12 +172,12 @@ class Prover:
             if p == q:
                 found += self.passes(one, two, at, time)
         if not found:
-            raise TooLong  # there is a plan of lower cost
+            raise TooLong  # a plan of lower cost exists
         rare = [pair for pair in found if pair[0][1] in ("norest", "pass")]
         return self.rng.choice(rare if rare and self.rng.random() < 0.5 else found[:6])
 
     def passes(self, one, two, at, time):
-        """Returns the splits, as wide as permitted, of two agents that meet within a chain and both traverse it."""
+        """Returns pass splits, as wide as permitted, for two agents that meet within a chain and both traverse it."""
         chain = self.instance.world.chain(at[one][time]) or self.instance.world.chain(at[two][time])
         if "pass" not in self.rules or not chain:
             return []
@@ -187,7 +190,7 @@ class Prover:
 
 
 class FaultyProver(Prover):
-    """Proves claims that may be false, with one kind of fault that makes the proof easier. A checker that does not
+    """Proves claims that can be false, with one kind of fault that makes the proof easier. A checker that does not
     detect the fault accepts the certificate."""
 
     FAULTS = ("wide bar", "rest", "stop", "lemma", "scope", "later", "joint", "same agent")
@@ -216,7 +219,7 @@ class FaultyProver(Prover):
         if number is not None and self.fault in ("lemma", "scope"):
             own, bound, constraints = self.lemmas[number]
             if self.fault == "lemma" and bound < INF:
-                # A lemma with a higher bound, whose proof ends in a leaf that does not show it.
+                # A lemma with too high a bound, whose proof consists of a leaf that does not show it.
                 self.lines += [" ".join(map(str, ["lemma", bound + 2, *own])), *("demand " + text(d) for d in constraints), "leaf"]
                 self.lemmas.append((own, bound + 2, constraints))
                 self.is_faulty = True
@@ -226,7 +229,7 @@ class FaultyProver(Prover):
         return number
 
     def some_constraints(self, agents):
-        # Long bars, so that lemmas have high bounds under their constraints.
+        # Bars without an end, so that lemmas have high bounds under their constraints.
         if self.fault == "scope":
             return [(agent, "bar", place, 0, INF) for agent in agents for place in self.rng.sample(range(self.instance.world.count), 2)]
         return super().some_constraints(agents)

@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests grove-verify with arbitrary input: it prints one line and ends with exit code 1 or 2 without delay.
+"""Tests grove-verify with arbitrary input: it prints one line and exits quickly with code 1 or 2.
 
     reader_test.py GROVE_VERIFY
-
 """
 import ctypes
 import ctypes.util
@@ -31,8 +30,8 @@ def compressed(data):
 
 
 def many(line):
-    """Returns eight million copies of a line, compressed to some ten thousand bytes. This process never holds them,
-    because the memory peak of a child starts from that of its parent."""
+    """Returns eight million copies of a line, compressed to less than 60,000 bytes. This process never holds the
+    uncompressed lines, because the measured memory peak of a child starts at that of its parent."""
     frames = 80 * compressed(100_000 * line)
     assert len(frames) < 60_000
     return frames
@@ -44,7 +43,7 @@ class Reader(unittest.TestCase):
         self.assertIn(found.code, codes, (data[:200], found.text))
         self.assertRegex(found.text, message)
         self.assertEqual(found.text.count("\n"), 1, found.text)
-        self.assertNotIn(".rs", found.text)  # no panic, for example by an overflow
+        self.assertNotIn(".rs", found.text)  # no panic, for example because of an overflow
         self.assertLess(found.seconds, seconds, data[:200])
         return found
 
@@ -63,11 +62,10 @@ class Reader(unittest.TestCase):
             self.assertTrue(found.code in (1, 2) or (found.code, found.text) == (0, "verified: no plan costs less than 5\n"), found.text)
 
     def test_decompression_bomb_keeps_the_memory_limit(self):
-        """Checks some ten thousand bytes that decompress to hundreds of megabytes: splits, each below the one
-        before."""
+        """Checks less than 60,000 bytes that decompress to hundreds of megabytes of nested splits."""
         bomb = compressed(GOOD.split("lemma")[0].encode() + b"theorem 5\n") + many(b"split 0 bar 4 1 1 | 1 bar 4 1 1\n")
         found = self.ends(bomb, (1,), "^refused: line [0-9]+: the memory limit is reached\n", options=("--memory-limit", "0.05"), seconds=60)
-        self.assertLess(found.memory, 0.05e9 + 150e6)  # the limit, and the window of zstd and the program
+        self.assertLess(found.memory, 0.05e9 + 150e6)  # the limit, plus the program and the window of zstd
 
     @unittest.skipUnless(shutil.which("zstd"), "no zstd")
     def test_small_checker_keeps_its_memory_limit(self):

@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests each rule of docs/proof.md by hand-made certificates: what it proves is verified, and each violated condition is
-refused with its line.
+"""Tests each rule of docs/proof.md with hand-made certificates: the checker verifies what a rule proves, and refuses
+each violated condition with the number of its line.
 
     rules_test.py GROVE_VERIFY
-
 """
 import unittest
 
@@ -19,16 +18,16 @@ def grid(*rows):
 # Two agents cross in the middle of a room at time 1; one must wait.
 CROSS = Instance(grid("...", "...", "..."), [Agent((3,), 5), Agent((1,), 7)])
 CROSSED = ["split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf", "leaf"]
-# Three straight paths of four steps through one cell; each pair is in conflict.
+# Three straight paths of four steps through one common cell, so that each pair is in conflict.
 STAR = Instance(grid(*["....."] * 5), [Agent((10,), 14), Agent((2,), 22), Agent((14,), 10)])
 # One agent follows the other.
 ROW = Instance(grid("...."), [Agent((1,), 3), Agent((0,), 2)])
-# Two agents exchange places; a detour takes three steps.
+# Two agents exchange places; a detour costs three steps.
 SWAP = Instance(grid("..", ".."), [Agent((0,), 1), Agent((1,), 0)])
 STUCK = Instance(grid(".."), [Agent((0,), 1), Agent((1,), 0)])
 # Agent 1 must pass the goal of agent 0.
 PASSER = Instance(grid("....."), [Agent((1,), 2), Agent((0,), 4)])
-# Two rooms and a corridor of two cells, 8 and 9, between 7 and 10.
+# Two rooms and a corridor of two cells (8 and 9) between cells 7 and 10.
 HALL = Instance(grid("..@@..", "......"), [Agent((6,), 11), Agent((11,), 6)])
 ERRANDS = Instance(grid("....."), [Agent((2,), 2), Agent((3,), 3)], [(0, 0, [0]), (4, 0, [0]), (4, 0, [0]), (1, 2, [0])])
 
@@ -46,7 +45,7 @@ class Rules(unittest.TestCase):
         self.assertEqual((found.code, found.text), (0, f"verified: {claim}\n"), lines)
 
     def refused(self, line, reason, instance, *lines, following="yes"):
-        """Asserts that the certificate is refused at `line`, counted from the first of `lines`."""
+        """Asserts that the certificate is refused at `line`, where the first of `lines` is line 1 after the head."""
         found = checkers.verify(instance, certificate(instance, *lines, following=following))
         self.assertEqual(found.code, 1, (lines, found.text))
         self.assertRegex(found.text, f"^refused: line {line + 3}: .*{reason}", lines)
@@ -70,7 +69,7 @@ class Rules(unittest.TestCase):
         self.refused(2, "no place 9", CROSS, "theorem 1", "split 0 bar 9 1 1 | 1 bar 9 1 1", "leaf", "leaf")
 
     def test_each_side_of_a_split_has_its_own_constraint(self):
-        # Agent 0 is barred at its start and has no path. Agent 1 is not barred.
+        # Agent 0 is barred at its start and therefore has no path. Agent 1 is not barred.
         self.refused(4, "costs 4 ", CROSS, "theorem 9", "split 0 bar 3 0 0 | 1 bar 3 0 0", "leaf", "leaf")
         self.refused(3, "costs 4 ", CROSS, "theorem 9", "split 1 bar 3 0 0 | 0 bar 3 0 0", "leaf", "leaf")
 
@@ -103,7 +102,8 @@ class Rules(unittest.TestCase):
         lemma = ["lemma inf 1", "demand 1 bar 2 2 inf", "leaf"]
         self.verified(PASSER, *lemma, "theorem 7", "split 0 norest 2 2 | 0 rest 2 2", "leaf", "leaf 0")
         self.refused(6, "constraint 0 of lemma 0 is not in force", PASSER, *lemma, "theorem 7", "split 0 norest 2 2 | 0 rest 2 2", "leaf 0")
-        # A rest among the constraints of a lemma implies no bars. Neither does the norest side.
+        # A rest among the constraints of a lemma implies no bars for other agents, and neither does the norest side of
+        # a split.
         self.refused(3, "costs 5", PASSER, "lemma 7 0 1", "demand 0 rest 2 2", "leaf")
         self.refused(4, "costs 7", PASSER, "theorem 8", "split 0 rest 2 2 | 0 norest 2 2", "leaf", "leaf")
 
@@ -119,14 +119,15 @@ class Rules(unittest.TestCase):
             self.refused(2, "the last place of a chain", HALL, "theorem 1", f"split 0 pass {wrong} 4 7 | 1 pass 8 7 4 7", "leaf", "leaf")
 
     def test_agent_that_turns_back_does_not_traverse(self):
-        # An agent barred from traversing in both directions may still enter and leave, for task 0 on 8.
+        # An agent that may not traverse the chain in either direction can still enter and leave it, here for task 0 on
+        # cell 8.
         visitor = Instance(HALL.world, [Agent((7,), 7)], [(8, 0, [0])])
         constraints = ["demand 0 pass 8 7 0 inf", "demand 0 pass 9 10 0 inf"]
         self.refused(4, "costs 2 ", visitor, "lemma 3 0", *constraints, "leaf")
         self.verified(visitor, "lemma 2 0", *constraints, "leaf", "theorem 2", "leaf")
 
     def test_stop_split_needs_an_existing_stop(self):
-        # Cell 1, on the way to 0, has a task of two steps; cell 4 is one stop with two tasks.
+        # Cell 1, on the way to cell 0, has a task of two steps. Cell 4 is a single stop with two tasks.
         self.verified(ERRANDS, "theorem 10", "leaf")
         self.verified(ERRANDS, "theorem 10", "split 0 stop 0 0 | 0 nostop 0 0", "leaf", "leaf")
         self.verified(ERRANDS, "theorem 10", "split 0 nostop 2 1 | 0 stop 2 1", "leaf", "leaf")
@@ -160,12 +161,12 @@ class Rules(unittest.TestCase):
         for other in ("0 bar 4 0 1", "0 bar 4 1 2", "0 bar 4 1 inf", "1 bar 4 1 1", "0 bar 1 1 1"):
             self.refused(6, "not in force", CROSS, "lemma 4 0 1", f"demand {other}", "leaf", "theorem 4",
                          "split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf 0")
-        # The constraints of a lemma end with its proof.
+        # The constraints of a lemma apply only within its proof.
         self.refused(5, "costs 4", CROSS, "lemma 5 0 1", "demand 0 bar 4 1 1", "leaf", "theorem 5", "leaf")
 
     def test_lemmas_are_combined_by_an_integer_cover(self):
         lemmas = [line for pair in ("0 1", "0 2", "1 2") for line in (f"lemma 9 {pair}", "joint")]
-        self.verified(STAR, *lemmas, "theorem 14", "leaf 0 1 2")  # a fractional cover would give 13.5
+        self.verified(STAR, *lemmas, "theorem 14", "leaf 0 1 2")  # a fractional cover would prove only 13.5
         self.refused(8, "costs 12 and 2 by lemmas; expected 15", STAR, *lemmas, "theorem 15", "leaf 0 1 2")
         self.refused(8, "costs 12 and 1 by lemmas", STAR, *lemmas, "theorem 14", "leaf 0 1")
         self.refused(8, "costs 12 and 1 by lemmas", STAR, *lemmas, "theorem 14", "leaf 0 0 0 1")
@@ -210,7 +211,7 @@ class Rules(unittest.TestCase):
         self.refused(4, "prices prove 3", CROSS, "theorem 5", "prices", "place 4 2 1024", "end")
         self.verified(CROSS, "theorem 5", "prices", "place 4 1 1", "end")  # rounded up
         self.refused(3, "prices prove 4", CROSS, "theorem 5", "prices", "end")
-        self.refused(4, "prices prove 4", CROSS, "theorem 5", "prices", "place 5 2 600", "end")  # used once, on arrival
+        self.refused(4, "prices prove 4", CROSS, "theorem 5", "prices", "place 5 2 600", "end")  # paid once, on arrival
         self.verified(CROSS, "theorem 5", "prices", "finish 0 2 1 2 1024", "end")
         self.refused(3, "both agents may have finished", CROSS, "theorem 5", "prices", "finish 0 3 1 2 1024", "end")
         self.refused(3, "", CROSS, "theorem 5", "prices", "finish 1 2 0 2 1024", "end")
@@ -222,10 +223,10 @@ class Rules(unittest.TestCase):
         self.refused(3, "without constraints", CROSS, "theorem 5", CROSSED[0], *place, "leaf")
 
     def test_agent_that_stays_on_the_lower_place_uses_the_edge(self):
-        # Agent 0 goes to 1 and back. Agent 1, far away, takes seven steps.
+        # Agent 0 goes to cell 1 and back. Agent 1 is far away and takes seven steps.
         instance = Instance(grid("............"), [Agent((0,), 0), Agent((4,), 11)], [(1, 0, [0])])
         self.verified(instance, "theorem 9", "prices", "end")
-        # If agent 0 came back at 2 it would use the row at 3; so it comes back at 4.
+        # If agent 0 came back at time 2, it would pay for the edge at time 3. It therefore comes back at time 4.
         self.verified(instance, "theorem 9", "prices", "edge 0 1 3 2048", "end")
         self.refused(4, "prices prove 8", instance, "theorem 9", "prices", "edge 0 1 3 3072", "end")
 

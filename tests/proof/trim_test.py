@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests grove proof trim: trimmed certificates are verified as before, unneeded parts are removed, and invalid files stay
-unchanged.
+"""Tests `grove proof trim`: trimmed certificates are verified as before, unneeded parts are removed, and invalid
+files stay unchanged.
 
     trim_test.py GROVE_VERIFY GROVE
     GROVE_FUZZ_FACTOR=20: 20 times as many instances
-
 """
 import random
 import resource
@@ -27,8 +26,8 @@ OLD = Path(__file__).resolve().parent / "old"
 
 
 def trim(certificate, *options):
-    """Returns the exit code, the output, the file afterwards and the names in its folder. certificate: text or
-    bytes."""
+    """Trims a certificate. Returns the exit code, the output, the resulting file and the names in its folder.
+    certificate: text or bytes."""
     with tempfile.TemporaryDirectory() as name:
         file = Path(name) / "c.proof"
         file.write_bytes(certificate if isinstance(certificate, bytes) else certificate.encode())
@@ -44,7 +43,7 @@ def trimmed(certificate):
 
 
 class Padder(Prover):
-    """Writes proofs with unneeded parts: lemmas of all agents, harmless splits, and leaves that name every usable
+    """Writes proofs with unneeded parts: lemmas about all agents, harmless splits, and leaves that name every usable
     lemma."""
 
     def __init__(self, instance, rng, following):
@@ -52,14 +51,14 @@ class Padder(Prover):
         self.pool, self.pads, self.all_agents = [], 0, list(range(len(instance.agents)))
 
     def random_sides(self):
-        """Returns the two sides of a random split, often by a constraint of a lemma."""
+        """Returns the two sides of a random split, often on a constraint of a lemma."""
         rng, places = self.rng, range(self.instance.world.count)
         a, b = rng.sample(self.all_agents, 2)
         constraint = rng.choice(self.pool) if self.pool and rng.random() < 0.7 else (a, rng.choice(["bar", "rest", "norest"]), rng.choice(places), rng.randint(0, 3))
         a, kind, place, time = constraint[:4]
         if kind in ("rest", "norest"):
             return rng.sample([(a, "norest", place, time), (a, "rest", place, time)], 2)
-        if constraint[-1] == INF:  # a bar that a rest implies for other agents
+        if constraint[-1] == INF:  # a bar that a rest of another agent implies
             b = rng.choice([agent for agent in self.all_agents if agent != a])
             return rng.sample([(b, "norest", place, time), (b, "rest", place, time)], 2)
         b = b if b != a else next(agent for agent in self.all_agents if agent != a)
@@ -111,7 +110,7 @@ class Trimmed(unittest.TestCase):
             self.assertEqual(trimmed(short), short, certificate)
             for word in ("lemma", "demand", "split", "later", "leaf"):
                 seen[word] += sum(line.startswith(word) for line in certificate.split("\n")) - sum(line.startswith(word) for line in short.split("\n"))
-            # Trimming does not make a false claim verifiable.
+            # Trimming must not make a false claim verifiable.
             for mutant in mutants(rng, certificate, 2):
                 code, output, file, _ = trim(mutant)
                 self.assertIn(code, (0, 2), output)
@@ -153,7 +152,7 @@ class Trimmed(unittest.TestCase):
     def test_implied_lemma_names_are_removed(self):
         self.expect("lemma 5 0 1\njoint\nlemma 4 0 1 2\njoint\nlemma 7 0 2\njoint\nlemma 0 1\nleaf\ntheorem 20\nleaf 0 1 2 2 3\n",
                     "lemma 5 0 1\njoint\nlemma 7 0 2\njoint\ntheorem 20\nleaf 0 1\n")
-        # Lemmas without a common agent suffice, whatever the agents cost.
+        # Two lemmas without a common agent suffice, whatever the individual costs of the agents are.
         self.expect("lemma 5 0 1\njoint\nlemma 6 0 2\njoint\nlemma 7 2 3\njoint\ntheorem 12\nleaf 0 1 2\n",
                     "lemma 5 0 1\njoint\nlemma 7 2 3\njoint\ntheorem 12\nleaf 0 1\n")
 
@@ -162,15 +161,15 @@ class Trimmed(unittest.TestCase):
         split, other = "split 0 bar 1 2 2 | 1 bar 1 2 2\n", "split 2 move 1 4 6 6 | 3 move 4 1 6 6\n"
         self.expect(f"{inf}theorem 8\n{split}{other}leaf 0\nleaf\njoint\n", f"{inf}theorem 8\n{split}leaf 0\njoint\n")
         self.expect(f"{inf}theorem 8\n{split}{other}joint\nleaf 0\njoint\n", f"{inf}theorem 8\n{split}leaf 0\njoint\n")
-        # The costs of the agents may depend on the constraints.
+        # The costs of agents can depend on the constraints, so both splits stay.
         for kept in (f"{inf}theorem 8\n{split}leaf 0\n{other}leaf\nleaf\n", f"{inf}theorem 8\n{other}{split}leaf 0\nleaf\njoint\n"):
             self.expect(kept, kept)
-        # A lemma proves the whole theorem.
+        # The lemma alone proves the theorem.
         self.expect(f"lemma 8 0 1 2 3\njoint\ntheorem 8\n{split}{other}leaf 0\nleaf\nleaf\n", "lemma 8 0 1 2 3\njoint\ntheorem 8\nleaf 0\n")
 
     def test_one_of_two_splits_with_a_needed_constraint_stays(self):
-        """Checks a constraint that both the outer and the inner split impose: one of them stays, either the outer
-        or the inner one."""
+        """Checks a constraint that both the outer and the inner split impose. One of the splits stays, either the
+        outer or the inner one."""
         inf = "lemma inf 0\ndemand 0 bar 1 2 2\nleaf\n"
         outer, inner = "split 0 bar 1 2 2 | 1 bar 1 2 2\n", "split 0 bar 1 2 2 | 3 bar 1 2 2\n"
         self.expect(f"{inf}theorem 8\n{outer}{inner}leaf 0\njoint\njoint\n", f"{inf}theorem 8\n{outer}leaf 0\njoint\n")
@@ -190,7 +189,7 @@ class Trimmed(unittest.TestCase):
         kept = f"{inf}theorem 8\n{rest}joint\nleaf 0\n"
         self.expect(kept, kept)
         self.expect(f"{inf}theorem 8\n{rest}joint\nsplit 2 norest 4 2 | 2 rest 4 2\njoint\nleaf 0\n", f"{inf}theorem 8\n{rest}joint\nleaf 0\n")
-        # A rest among the constraints of a lemma implies no bars.
+        # A rest among the constraints of a lemma implies no bars, so the split within its proof stays.
         kept = f"{inf}lemma 8 0 1\ndemand 0 rest 4 2\n{rest}joint\nleaf 0\ntheorem 9\nsplit 0 norest 4 2 | 0 rest 4 2\njoint\nleaf 1\n"
         self.expect(kept, kept)
 
@@ -235,11 +234,11 @@ class Files(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("zstd"), "no zstd")
     def test_decompression_bomb_keeps_the_memory_limit(self):
-        """Trims some ten thousand bytes that decompress to hundreds of megabytes of lemmas."""
+        """Trims less than 60,000 bytes that decompress to hundreds of megabytes of lemmas."""
         def pack(text):
             return subprocess.run(["zstd", "-19", "-c"], input=text, capture_output=True, check=True).stdout
         lemma = b"lemma 3 0\ndemand 0 bar 1 2 2\ndemand 0 bar 1 3 3\nleaf\n"
-        # Packed in parts: the memory peak of a child starts from that of its parent.
+        # Packed in parts, because the measured memory peak of a child starts at that of its parent.
         packed = pack(Trimmed.HEAD.encode()) + 100 * pack(50_000 * lemma)
         self.assertLess(len(packed), 60_000)
         code, output, after, files = trim(packed, "--memory-limit", "0.2")

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Models tiny instances, the motions of their agents and the least cost of a plan: sections 1 and 2 of docs/proof.md in
-plain Python, as a second implementation to compare with. It is slow, but short enough to review."""
+"""Models tiny instances, the motions of their agents and the least cost of a plan, as sections 1 and 2 of
+docs/proof.md define them.
+
+This plain Python code is a second implementation for comparison: slow, but short enough to review."""
 import functools
 import heapq
 import itertools
@@ -13,8 +15,8 @@ AHEAD = {"N": (0, -1), "E": (1, 0), "S": (0, 1), "W": (-1, 0)}
 
 
 class World:
-    """Places, links and neighbours of a grid given by its rows, or of roads (from, to, steps, one way) between
-    vertices."""
+    """Represents the places, links and neighbours of a grid, given by its rows, or of roads (from, to, steps, one
+    way) between vertices."""
 
     def __init__(self, rows=None, vertices=0, roads=()):
         self.rows, self.vertices, self.roads = rows, vertices, list(roads)
@@ -46,8 +48,7 @@ class World:
         return y * self.width + x if inside and self.passable(y * self.width + x) else None
 
     def chain(self, place):
-        """Returns the chain of interior places that contains `place`, with both ends. Returns None if there is
-        none."""
+        """Returns the chain of interior places that contains `place`, including both ends, or None if there is none."""
         if len(self.near[place]) != 2:
             return None
         row = [place]
@@ -63,14 +64,14 @@ class World:
 
 
 class Agent:
-    """An agent. Its start is a pose: (place,), (place, heading) or (place, heading, to, steps done)."""
+    """Represents an agent. Its start is a pose: (place,), (place, heading) or (place, heading, to, steps done)."""
 
     def __init__(self, start, goal=None, turn=0, goal_heading=None, working=None):
         self.start, self.goal, self.turn, self.goal_heading, self.working = start, goal, turn, goal_heading, working
 
 
 class Instance:
-    """An instance. Each task is (place, duration, agents)."""
+    """Represents an instance. Each task is (place, duration, agents)."""
 
     def __init__(self, world, agents, tasks=()):
         self.world, self.agents, self.tasks = world, agents, list(tasks)
@@ -94,7 +95,7 @@ class Instance:
         return goal if goal is not None and self.agents[agent].goal_heading is None and not timed else None
 
     def steps(self, agent, pose):
-        """Returns the poses that one step leads to, except waiting."""
+        """Returns the poses that one step can lead to, except by waiting."""
         place, turn = pose[0], self.agents[agent].turn
         if not turn:
             return [(q,) for q in self.world.after[place]]
@@ -107,8 +108,8 @@ class Instance:
         return turns + ([(ahead, pose[1])] if ahead is not None else [])
 
     def ends(self, agent, pose, last):
-        """Returns whether the agent may end in this pose after all its stops. last: the stop done last; None if the
-        order is not tracked."""
+        """Returns whether the agent may end in this pose after all its stops. last: the stop visited last, or None
+        if the order is not tracked."""
         one, own = self.agents[agent], self.own(agent)
         if one.goal is not None:
             return pose[0] == one.goal and (one.goal_heading is None or pose[1:] == (one.goal_heading,))
@@ -182,8 +183,8 @@ def initial(instance, agent, ordered):
 
 
 def arrivals(instance, agent, state, ordered):
-    """Yields the states in which an agent may be at once when it reaches `state`: stops without duration are done,
-    work begins."""
+    """Yields the states that the agent can choose when it reaches `state`: stops without duration count as visited,
+    and the execution of a task can start."""
     pose, done, _ = state
     here = [j for j in instance.stops(agent) if instance.tasks[j][0] == pose[0] and j not in done]
     quick = [j for j in here if instance.tasks[j][1] == 0]
@@ -199,7 +200,7 @@ def arrivals(instance, agent, state, ordered):
 
 @functools.lru_cache(1 << 16)
 def onwards(instance, agent, state, ordered):
-    """Returns the states at the next time."""
+    """Returns the states that are possible one step later."""
     pose, done, work = state
     if work:
         task, left = work
@@ -218,8 +219,8 @@ def finished(instance, agent, state, ordered):
 
 
 def least_cost(instance, agent, constraints, latest=400):
-    """Returns (c(A, D), a path as one place per time), or (inf, None). A constraint is a tuple as in a certificate,
-    without the agent."""
+    """Returns (c(A, D), a path as one place per time), or (inf, None) if there is no path. A constraint is a tuple
+    as in a certificate, but without the agent."""
     ordered = any(d[0] in ("stop", "nostop") for d in constraints)
     world = instance.world
     constant_from = 1 + max([t for d in constraints for t in d[1:] if d[0] not in ("stop", "nostop") and t != INF], default=0)
@@ -234,8 +235,8 @@ def least_cost(instance, agent, constraints, latest=400):
         return not any(d[0] == "bar" and d[1] == place and d[2] <= time <= d[3] for d in constraints)
 
     def after(node, state, time):
-        """Returns the node at `time` after `node`, with the time of arrival and the entries into chains. Returns
-        None if a constraint forbids the step."""
+        """Returns the node at `time` after `node`, with the time of arrival and the entries into chains, or None if
+        a constraint forbids the step."""
         (before, _, _), arrived, entries = node
         place = state[0][0]
         if place == before[0]:
@@ -289,7 +290,7 @@ def least_cost(instance, agent, constraints, latest=400):
 
 
 def through(chain, entry):
-    """Returns the step by which an agent leaves a chain that it entered by `entry` and traversed."""
+    """Returns the step by which an agent that entered a chain by `entry` leaves it after traversing it."""
     start, first = entry
     row = list(chain)
     if len(row) == 3:
@@ -298,7 +299,7 @@ def through(chain, entry):
 
 
 def collide(befores, afters, following):
-    """Returns whether agents collide in a step between two tuples of places."""
+    """Returns whether agents collide in the step from the places `befores` to the places `afters`."""
     for one, two in itertools.combinations(range(len(afters)), 2):
         p, q, u, v = befores[one], befores[two], afters[one], afters[two]
         if u == v or (u == q and v == p) or (not following and ((u == q and v != q) or (v == p and u != p))):
@@ -307,8 +308,8 @@ def collide(befores, afters, following):
 
 
 def optimum(instance, following=True, most=4000):
-    """Returns the least cost of a valid plan, or inf, by Dijkstra's algorithm over joint states. Returns None after
-    `most` states."""
+    """Returns the least cost of a valid plan, or inf if there is none, by Dijkstra's algorithm over joint states.
+    Returns None after `most` states."""
     agents = range(len(instance.agents))
     starts = list(itertools.product(*(initial(instance, agent, False) for agent in agents)))
     waiting, known, tie = [(0, number, start) for number, start in enumerate(starts)], {start: 0 for start in starts}, itertools.count(len(starts))
@@ -342,7 +343,7 @@ def optimum(instance, following=True, most=4000):
 
 
 def random_instance(rng, kind):
-    """Returns a random instance of a kind: plain, cts, mg, turning, work or roads. Each agent has a path; their
+    """Returns a random instance of kind plain, cts, mg, turning, work or roads. Each agent has a path, and their
     least costs sum to at most 16."""
     while True:
         if kind == "roads":

@@ -4,7 +4,7 @@
 
     python_test.py SOURCE_DIR PACKAGE_DIR [GROVE]
 
-Exit code 77: skipped because numpy or pandas, which only tests need, is not installed.
+Exits with code 77 (skipped) if numpy or pandas is not installed; only the tests need them.
 """
 import contextlib
 import doctest
@@ -38,7 +38,7 @@ def small():
 
 
 def hard_instance(robots=14):
-    """Returns robots that have to pass one another in a corridor: hours of search."""
+    """Returns an instance in which robots have to pass each other in a corridor, which takes hours of search."""
     return grove.instance_from_arrays(grove.World(["." * robots] * 2), [(i, 0) for i in range(robots)],
                                       [(robots - 1 - i, 1) for i in range(robots)])
 
@@ -129,7 +129,7 @@ class Instances(unittest.TestCase):
         passable = numpy.array([[c == "." for c in row] for row in ROWS])
         world = grove.World.grid(passable)
         self.assertTrue((world.passable == passable).all())
-        self.assertTrue((grove.World.grid(passable.T).passable == passable.T).all())  # not contiguous
+        self.assertTrue((grove.World.grid(passable.T).passable == passable.T).all())  # a non-contiguous array
         starts = numpy.array([[0, 0], [4, 0]])
         instance = grove.instance_from_arrays(world, starts, starts[::-1],
                                               [numpy.array([[2, 1]]), numpy.zeros((0, 2), int)])
@@ -205,7 +205,7 @@ class Solving(unittest.TestCase):
 
         def request_stop():
             begun.wait()
-            sum(range(1_000_000))  # this thread runs during the solve
+            sum(range(1_000_000))  # this thread runs while the solve does
             stop.set()
 
         requester = threading.Thread(target=request_stop)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each audit detects the defect that it checks for.
+// Tests that each audit detects the defect for which it exists.
 #include "search/audit.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ struct TwoAgents : testing::RootFixture {
   TwoAgents()
       : RootFixture({"....", "...."}, {{{0, 0}, Position{3, 0}}, {{0, 1}, Position{3, 1}}}) {}
 
-  // A child of the root in which agent 0 takes `path` and the node claims `cost`.
+  // Returns a child of the root in which agent 0 takes `path` and the node claims `cost`.
   NodePtr child(const Path& path, Cost cost, const AgentConstraint& added = {}) {
     const NewPath taken{0, &path};
     NodeDelta change;
@@ -42,7 +42,7 @@ TEST(Audit, DetectsAPathThatViolatesAConstraint) {
   TwoAgents s;
   const NodePtr broken = s.child({0, 1, 2, 3}, 6, {0, {1, kNoCell, 1, 1}});
   EXPECT_THROW(s.audit_child(broken), AssertionFailed);
-  // An audit of agent 1 only does not check the path of agent 0.
+  // An audit restricted to agent 1 does not check the path of agent 0.
   const std::array<AgentIndex, 1> other{1};
   EXPECT_NO_THROW(audit(s.problem, *broken, other));
   EXPECT_THROW(s.view.enter(broken, s.all), AssertionFailed);
@@ -66,7 +66,8 @@ TEST(Audit, DetectsAnOutdatedConflictAvoidanceTable) {
 }
 
 #ifdef GROVE_ASSERTIONS
-// A step between non-adjacent cells would unpack to other cells, or access memory out of bounds.
+// Packing a step between non-adjacent cells would yield a different path or access memory out of
+// bounds.
 TEST(Assertion, DetectsAStepBetweenNonAdjacentCells) {
   TwoAgents s;
   EXPECT_THROW(s.child({0, 2, 3}, 5), AssertionFailed);

@@ -25,7 +25,7 @@ struct Branched : RootFixture {
     children.clear();
     return brancher.branch(view, cutoff, fallback_splits, limits, children);
   }
-  // Agents that the children constrain, in ascending order.
+  // Returns the agents that the children constrain, in ascending order.
   std::vector<AgentIndex> constrained() const {
     std::vector<AgentIndex> agents;
     for (const NodePtr& child : children) agents.push_back(child->added().agent);
@@ -41,7 +41,7 @@ struct Branched : RootFixture {
   std::vector<NodePtr> children;
 };
 
-// Agents 0 and 1 cross on open ground at time 1 and each has another path of the same length.
+// Agents 0 and 1 cross on open ground at time 1, and each has a different path of the same length.
 // Agents 2 and 3 cross at time 3, each in an aisle one cell wide, so one of them must wait.
 const std::vector<std::string> kOpenAndAisles{"...@@@.@@@",  //
                                               "...@@@.@@@",  //
@@ -62,7 +62,7 @@ TEST(Brancher, PrefersTheConflictThatRaisesBothBranches) {
   for (const NodePtr& child : s.children) EXPECT_EQ(child->cost(), s.root->cost() + 1);
 }
 
-// A door: the agent that gives way loses three steps, the other none.
+// A door. The agent that gives way loses three steps, the other agent none.
 const std::vector<std::string> kDoor{"..@..", ".....", "..@.."};
 const std::vector<AgentSpec> kHeadOn{{{0, 1}, Position{4, 1}}, {{4, 1}, Position{0, 1}}};
 
@@ -77,7 +77,7 @@ TEST(Brancher, PrunesBranchesThatReachTheCutoff) {
   s.view.enter(s.root, s.all);
   ASSERT_EQ(s.branch(s.root->cost() + 2), Brancher::Outcome::kBranched);
   EXPECT_EQ(child_costs.asked(), 2 * asked);
-  EXPECT_GE(child_costs.known(), asked);  // every query of the second call
+  EXPECT_GE(child_costs.known(), asked);  // all queries of the second call are cached
   for (const Cost cutoff : {s.root->cost() + 1, s.root->cost()}) {
     s.view.enter(s.root, s.all);
     ASSERT_EQ(s.branch(cutoff), Brancher::Outcome::kBranched);
@@ -119,7 +119,7 @@ TEST(Brancher, BypassesAConflictInsteadOfSplitting) {
   EXPECT_EQ(without.splits(ConstraintKind::kVertexOrEdge), 1);
 }
 
-// The children of a split are children of the node with its current paths: they keep all paths that
+// A split creates children of the node with its current paths, so the children keep all paths that
 // the view showed.
 TEST(Brancher, KeepsBypassesInTheChildren) {
   Branched s(kOpenAndAisles, kFour, {{Technique::kStrongBranching, Technique::kBypass}, 0, true});
@@ -135,8 +135,8 @@ TEST(Brancher, KeepsBypassesInTheChildren) {
   }
 }
 
-// Agent 1 rests in the passage of agent 0 from time 1 on. In one branch it comes to rest later, in
-// the other it rests by then.
+// Agent 1 rests in the passage of agent 0 from time 1 on. In one branch of the split it comes to
+// rest later; in the other branch it rests by then.
 TEST(Brancher, SplitsTargetConflictsOnTheTimeOfRest) {
   Branched s({"......", "@@.@@@"}, {{{0, 0}, Position{5, 0}}, {{4, 0}, Position{3, 0}}},
              {{Technique::kTarget}, 0, true});
@@ -146,7 +146,7 @@ TEST(Brancher, SplitsTargetConflictsOnTheTimeOfRest) {
     EXPECT_EQ(child->added().agent, 1);
     EXPECT_EQ(child->added().constraint.kind, ConstraintKind::kNoRestBy);
   }
-  // The other branch blocks the only path of agent 0.
+  // The other branch blocks the only path of agent 0, so it has no child.
   EXPECT_EQ(s.children.size(), 1u);
   EXPECT_EQ(s.splits(ConstraintKind::kRestBy), 1);
 }
@@ -172,7 +172,7 @@ TEST(Brancher, TakesAFallbackSplitOnlyForAgentsInConflict) {
   EXPECT_EQ(apart.constrained(), std::vector<AgentIndex>({0, 1}));
 }
 
-// Two conflicts at the same time: only the seed decides which of them is split.
+// Two conflicts at the same time. The seed alone decides which of them is split.
 TEST(Brancher, BreaksTiesBySeed) {
   const std::vector<AgentSpec> twice{{{0, 0}, Position{2, 2}},
                                      {{0, 2}, Position{2, 0}},
@@ -198,7 +198,7 @@ TEST(Brancher, BreaksTiesBySeed) {
   EXPECT_EQ(seen, (std::set<std::vector<AgentIndex>>{{0, 1}, {2, 3}}));
 }
 
-// A search for a pair of agents examines only these two and does not load the others.
+// A search for a pair of agents examines only this pair and does not load other agents.
 TEST(NodeView, LoadsOnlyTheAgentsOfItsScope) {
   RootFixture s(kOpenAndAisles, kFour);
   const std::array<AgentIndex, 2> pair{2, 3};
@@ -223,10 +223,11 @@ TEST(NodeView, ListsTheAgentsAffectedByAConstraint) {
   const Cell on_first = s.view.path(0)[1];
   EXPECT_EQ(affected_agents(0, {on_first, kNoCell, 1, 1}), std::vector<AgentIndex>({0}));
   EXPECT_EQ(affected_agents(0, {on_first, kNoCell, 2, 2}), std::vector<AgentIndex>());
-  // Agent 0 rests on its goal by time 3, and agent 1 does not enter it: no agent is affected.
+  // Agent 0 rests on its goal by time 3, and agent 1 does not enter that cell, so no agent is
+  // affected.
   EXPECT_EQ(affected_agents(0, {3, kNoCell, 0, 3, ConstraintKind::kRestBy}),
             std::vector<AgentIndex>());
-  // If agent 0 had to rest on a cell of agent 1's path, both would be affected.
+  // If agent 0 had to rest on a cell of agent 1's path, both agents would be affected.
   EXPECT_EQ(affected_agents(0, {5, kNoCell, 0, 1, ConstraintKind::kRestBy}),
             std::vector<AgentIndex>({0, 1}));
 }

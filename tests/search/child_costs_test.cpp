@@ -11,8 +11,8 @@ namespace child_costs_test {
 using testing::RootFixture;
 using Outcome = ChildCosts::Outcome;
 
-// Path lengths of the agent: 4 through the open door at time 2. If the door is blocked up to time 9
-// the agent passes at time 10 and needs 12 steps.
+// Path lengths of the agent: 4 through the open door at time 2; 12 if the door is blocked up to
+// time 9, so that the agent passes it at time 10.
 constexpr Time kFree = 4;
 constexpr Time kBlocked = 12;
 
@@ -44,8 +44,8 @@ TEST_F(ChildCostsTest, CostIsExactWithinTheCutoff) {
   EXPECT_EQ(child_costs_.known(), 1);
 }
 
-// A cost above the cutoff is not exact, but never more than the true cost: it is cached, and used
-// under other cutoffs.
+// A result above the cutoff is only a lower bound on the cost. It is cached, and later queries with
+// other cutoffs use it.
 TEST_F(ChildCostsTest, CostAboveTheCutoffIsALowerBound) {
   for (Time cutoff = kFree; cutoff < kBlocked; ++cutoff) {
     const Time known = cost(cutoff);

@@ -9,8 +9,8 @@
 namespace grove::detail {
 namespace covering_test {
 
-// The least sum that satisfies all statements, by enumerating every assignment of 0 to `max_given`
-// per agent.
+// Returns the least sum that satisfies all statements, by enumerating all assignments of 0 to
+// `max_given` to each agent.
 Cost brute_force(const std::vector<GroupExcess>& statements, int agents, int max_given) {
   std::vector<int> given(static_cast<std::size_t>(agents));
   Cost best = kInfiniteCost;
@@ -69,9 +69,9 @@ TEST(CoveringBound, IsZeroWithoutStatements) {
   EXPECT_EQ(covering_bound({}), 0);
 }
 
-// Excess of a pair without any pair of paths, found before there is a plan to compare with. The
-// search must not be as deep as this number, and two such statements must not add up to less than
-// one.
+// Infinite excesses of pairs that have no collision-free paths, found before any plan gives a
+// finite limit. The recursion must not be as deep as these numbers, and sums of them must not
+// overflow.
 TEST(CoveringBound, HandlesStatementsOfInfiniteCost) {
   std::vector<GroupExcess> statements;
   for (AgentIndex a = 0; a < 20; a += 2) {

@@ -17,7 +17,7 @@ namespace expander_test {
 
 using testing::AgentSpec;
 
-// The root of the first tree of an instance, and an expander for it.
+// The root of an instance's first tree, with an expander.
 struct Search {
   Search(const std::vector<std::string>& rows, const std::vector<AgentSpec>& agents)
       : instance(testing::instance_of(rows, agents)),
@@ -48,7 +48,7 @@ TEST(Expander, TurnsAConflictFreeNodeIntoItsPlan) {
 }
 
 TEST(Expander, MakesOneChildPerAgentWithOneConstraintEach) {
-  // Head-on conflict in a corridor with a bay: each agent has to give way in one child.
+  // Two agents meet head-on in a corridor with a bay; each of them has to give way in one child.
   Search s({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
   const Expansion expansion = s.expander.expand(s.root, kInfiniteCost, s.limits);
   ASSERT_EQ(expansion.children.size(), 2u);
@@ -69,8 +69,8 @@ TEST(Expander, MakesOneChildPerAgentWithOneConstraintEach) {
   }
 }
 
-// The memory of nodes must not depend on which expander last expanded which node, because memory
-// limits count it.
+// The memory of nodes must not depend on which expander last expanded a node, because memory limits
+// include it.
 TEST(Expander, HoldsNoNodeBetweenExpansions) {
   Search s({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
   const std::size_t before = s.pool.bytes();
@@ -85,8 +85,8 @@ TEST(Expander, HoldsNoNodeBetweenExpansions) {
 }
 
 TEST(Expander, BoundsOfChildrenAreAtLeastTheParents) {
-  // The second agent rests on cell 2. A constraint there at the time of the conflict sends it away
-  // and back. The first agent has no other path, so in its child it waits.
+  // The second agent rests on cell 2. A constraint on this cell at the time of the conflict makes
+  // it leave and return. The first agent has no alternative path, so in its child it waits.
   Search s({"...."}, {{{0, 0}, Position{1, 0}}, {{3, 0}, Position{2, 0}, {{1, 0}}}});
   const Expansion expansion = s.expander.expand(s.root, kInfiniteCost, s.limits);
   ASSERT_FALSE(expansion.children.empty());
@@ -102,7 +102,8 @@ TEST(Expander, StopsWithoutChildrenAtALimit) {
   EXPECT_FALSE(expansion.plan);
 }
 
-// The root of a dense instance whose pairs take more work than one call of expand() may do.
+// The pairs at the root of this dense instance take more effort than a single call of expand() is
+// allowed.
 TEST(Expander, BoundDoesNotDependOnTheNumberOfCalls) {
   const Instance instance =
       testing::random_crowd({.size = 20, .obstacles = 30, .agents = 60, .tasks = 120}, 3);
@@ -123,7 +124,7 @@ TEST(Expander, BoundDoesNotDependOnTheNumberOfCalls) {
   } while (in_parts.unfinished);
   EXPECT_GT(calls, 2);
 
-  // An expander whose shared cache follows another one leaves no work for a later call.
+  // With a shared cache that succeeds another one, an expander leaves nothing to a later call.
   Expander other(problem, stops, {Techniques::defaults(), 0});
   other.use_shared_cache(std::make_shared<SharedCache>(SharedCache::Successor{}));
   const Expansion at_once = other.expand(root, kInfiniteCost, limits);
@@ -148,7 +149,7 @@ TEST(Expander, IsAPureFunctionOfTheNode) {
   }
 }
 
-// Two workers, each with a cache, that expand the nodes of one tree alternately.
+// Two workers, each with its own cache, expand the nodes of one tree alternately.
 TEST(Expander, OneExpanderServesTwoWorkersLikeTwoExpanders) {
   const Instance instance =
       testing::random_crowd({.size = 10, .obstacles = 25, .agents = 12, .tasks = 14}, 1);
@@ -162,8 +163,9 @@ TEST(Expander, OneExpanderServesTwoWorkersLikeTwoExpanders) {
     std::shared_ptr<SharedCache> memory = std::make_shared<SharedCache>();
     Expander::AgentCaches caches;
   };
-  // Expands with `expander_of` (worker 0 or 1); with `exchanges` the agent caches of the workers
-  // are swapped in and out. Returns the number of nodes and of subproblems.
+  // Expands nodes with `expander_of(worker)`, where the worker is 0 or 1. With `exchanges`, the
+  // agent caches of the workers are swapped in and out. Returns the numbers of nodes and of
+  // subproblems.
   const auto subproblems_queried = [&](auto expander_of, bool exchanges) {
     std::array<Worker, 2> workers;
     std::vector<NodePtr> nodes{root};

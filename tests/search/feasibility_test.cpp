@@ -21,7 +21,7 @@ TEST(PresolveInfeasibility, DetectsUnreachableCells) {
   EXPECT_FALSE(infeasible({"...."}, {{{0, 0}, Position{1, 0}, {{3, 0}}}}));
 }
 
-// A <=> B > C, and B > D.
+// A <=> B > C, and B > D ("<=>": two-way road, ">": one-way road).
 TEST(PresolveInfeasibility, DetectsDeadEndsOfOneWayRoads) {
   const Roadmap roadmap({{"A", {}}, {"B", {}}, {"C", {}}, {"D", {}}},
                         {{0, 1, 2, false}, {1, 2, 1, true}, {1, 3, 1, true}});
@@ -45,7 +45,7 @@ TEST(PresolveInfeasibility, DetectsTooFewCellsToRestOn) {
   EXPECT_TRUE(infeasible(open, {{{0, 0}, {}, {{1, 1}}}, {{2, 2}, {}, {{1, 1}}}}));
   EXPECT_TRUE(infeasible(open, {{{0, 0}, {}, {{1, 1}}}, {{2, 2}, Position{1, 1}}}));
   EXPECT_FALSE(infeasible(open, {{{0, 0}, {}, {{1, 1}, {0, 1}}}, {{2, 2}, {}, {{1, 1}}}}));
-  // The first agent must take another cell: an augmenting path.
+  // The first agent must take a different cell, which requires an augmenting path.
   EXPECT_FALSE(infeasible(
       open,
       {{{0, 0}, {}, {{1, 1}, {2, 1}}}, {{0, 1}, {}, {{1, 1}, {2, 0}}}, {{2, 2}, {}, {{1, 1}}}}));
@@ -57,7 +57,7 @@ TEST(PresolveInfeasibility, DetectsTooFewCellsToRestOn) {
 TEST(PresolveInfeasibility, DetectsAgentsThatMustSwapInACorridor) {
   EXPECT_TRUE(infeasible({"....."}, {{{0, 0}, Position{4, 0}}, {{3, 0}, Position{1, 0}}}));
   EXPECT_FALSE(infeasible({"....."}, {{{0, 0}, Position{3, 0}}, {{1, 0}, Position{4, 0}}}));
-  // A bay in which one agent can let the other pass.
+  // In the bay one agent can let the other pass.
   EXPECT_FALSE(
       infeasible({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{3, 0}, Position{1, 0}}}));
 }

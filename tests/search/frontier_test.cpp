@@ -10,7 +10,7 @@
 namespace grove::detail {
 namespace frontier_test {
 
-// Roots whose bound is the length of the path of one agent.
+// Roots whose bound is the length of one agent's path.
 class FrontierTest : public ::testing::Test {
  protected:
   FrontierTest()
@@ -149,7 +149,7 @@ TEST_F(FrontierTest, EvictsTheWorstAndKeepsTheirLeastBound) {
   frontier_.complete(frontier_.take());
   frontier_.complete(frontier_.take());
   EXPECT_EQ(frontier_.take(), nullptr);
-  // No node is live, but nothing is proven above the bound of the evicted nodes.
+  // No node is live, but no bound above that of the evicted nodes is proven.
   EXPECT_EQ(frontier_.bound(), 4);
   EXPECT_FALSE(frontier_.empty());
 }

@@ -10,7 +10,7 @@
 namespace grove::detail {
 namespace global_bounds_test {
 
-// One agent in a corridor: the straight path costs 4, each wait adds one.
+// One agent in a corridor. The straight path costs 4, and each wait adds 1.
 const Instance& instance() {
   static const Instance kInstance = testing::instance_of({"....."}, {{{0, 0}, Position{4, 0}}});
   return kInstance;

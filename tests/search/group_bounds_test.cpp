@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Group bounds that travel with nodes: a receiver expands the nodes to the same children with less
-// work.
+// Tests group bounds that are sent together with nodes: the receiver expands the nodes to the same
+// children with less effort.
 #include "search/group_bounds.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace group_bounds_test {
 
 constexpr Cost kSlack = 20;
 
-// A search of which one expander has expanded the first nodes.
+// A search whose first nodes have been expanded by one expander.
 struct PartialSearch {
   explicit PartialSearch(std::uint64_t seed)
       : instance(testing::random_crowd(
@@ -55,7 +55,7 @@ struct PartialSearch {
 
 struct Outcome {
   bool has_plan;
-  std::vector<std::pair<Cost, Cost>> children;  // cost and bound
+  std::vector<std::pair<Cost, Cost>> children;  // cost and bound of each
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
@@ -96,8 +96,8 @@ TEST(GroupBound, HoldsExactlyTheEntriesOfTheCache) {
     const auto group_bounds = group_bounds_of(s.nodes, *s.expander.memory());
     SharedCache other;
     merge(group_bounds, s.nodes, other);
-    // Both caches number subproblems in the order in which they first occur, so only the bounds per
-    // node can be compared.
+    // Each cache numbers subproblems in order of first occurrence, so only the bounds per node can
+    // be compared.
     const auto again = group_bounds_of(s.nodes, other);
     ASSERT_EQ(again.size(), group_bounds.size());
     for (std::size_t i = 0; i < group_bounds.size(); ++i) {

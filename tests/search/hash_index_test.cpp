@@ -8,7 +8,7 @@
 namespace grove::detail {
 namespace hash_index_test {
 
-// Adds `entries` numbers whose hashes differ in `bits` bits only, and finds each of them.
+// Adds `entries` numbers whose hashes differ in only `bits` bits, and finds each of them.
 void add_and_find(int entries, std::uint32_t bits) {
   HashIndex index;
   std::vector<int> values;
@@ -33,8 +33,8 @@ void add_and_find(int entries, std::uint32_t bits) {
 TEST(HashIndex, FindsEachEntryWhateverItsHash) {
   add_and_find(0, 8);
   add_and_find(1000, 31);
-  add_and_find(300, 3);  // most share their hash
-  add_and_find(50, 0);   // all share one hash: the last slot of the table
+  add_and_find(300, 3);  // most of them share a hash
+  add_and_find(50, 0);   // all of them share one hash, that of the last slot of the table
 }
 
 TEST(HashIndex, TakesAtMost22BytesPerEntry) {

@@ -44,8 +44,8 @@ struct NodeBelowRoot : testing::RootFixture {
   std::mt19937_64 random;
 };
 
-// Excess of the group if it is at most `max_excess`, else `max_excess` + 1. Returns nullopt if
-// there are too many combinations of paths.
+// Returns the excess of the group, or `max_excess` + 1 if it is greater than `max_excess`. Returns
+// nullopt if an agent has too many paths to enumerate.
 std::optional<Cost> true_excess(NodeBelowRoot& s, const std::vector<AgentIndex>& group,
                                 Time max_excess) {
   std::vector<std::vector<oracle::PlacePath>> paths;
@@ -62,8 +62,8 @@ std::optional<Cost> true_excess(NodeBelowRoot& s, const std::vector<AgentIndex>&
   return least ? std::min<Cost>(*least - apart, max_excess + 1) : max_excess + 1;
 }
 
-// With sufficient work the excess equals that of an exhaustive search; with little work it is never
-// above it.
+// With enough effort the result equals the excess found by exhaustive search; with little effort it
+// never exceeds it.
 TEST(JointGroups, ExcessEqualsThatOfAnExhaustiveSearch) {
   int exact = 0, above = 0, interrupted = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(600));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Learned bounds are sent as values, and the receiver's cache then holds as much as if it had
-// computed them.
+// Tests learned bounds that are sent as values: the receiver's cache then holds the same bounds as
+// if the receiver had computed them itself.
 #include "search/learned_bounds.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace grove::detail {
 namespace learned_bounds_test {
 
-// A process with an expander, which numbers its subproblems independently of other processes.
+// A process with an expander. It numbers its subproblems independently of other processes.
 struct Process {
   explicit Process(std::uint64_t seed)
       : instance(testing::random_crowd(
@@ -29,7 +29,7 @@ struct Process {
     trees.add(root->tree());
   }
 
-  // Expands at most `max_nodes` nodes. Returns cost and bound of every node generated.
+  // Expands at most `max_nodes` nodes. Returns the cost and bound of every generated node.
   std::vector<std::pair<Cost, Cost>> expand(std::size_t max_nodes) {
     std::vector<NodePtr> nodes{root};
     for (std::size_t i = 0; i < nodes.size() && i < max_nodes; ++i) {
@@ -89,8 +89,7 @@ TEST(LearnedBound, IsNewOnce) {
   EXPECT_TRUE(sender.learned_bounds().empty());
 }
 
-// Two trees in which the first agent has the same order, and the second agent a different order in
-// each.
+// Two trees in which the first agent has the same order and the second agent has different orders.
 struct TwoTrees {
   TwoTrees() {
     for (int i = 0; i < 3; ++i) orders.push_back(std::make_shared<AgentSequencing>());
@@ -112,8 +111,8 @@ struct TwoTrees {
   SharedCache memory;
 };
 
-// An order may occur in several trees; a learned bound must apply to exactly the orders it was
-// proven for.
+// An order can occur in several trees. A learned bound must apply to exactly the orders for which
+// it was proven.
 TEST(LearnedBound, AppliesToTheOrdersItWasProvenFor) {
   const std::vector<Constraint> constraints{{3, kNoCell, 1, 2}};
   TwoTrees here;
@@ -128,7 +127,7 @@ TEST(LearnedBound, AppliesToTheOrdersItWasProvenFor) {
   ASSERT_EQ(bounds.size(), 1u);
 
   TwoTrees there;
-  there.memory.subproblems.id(1, *there.orders[1], {});  // so that numbers differ
+  there.memory.subproblems.id(1, *there.orders[1], {});  // makes the numbering differ
   merge(bounds[0], there.known, there.memory);
   EXPECT_EQ(there.of_pair(0, 2, constraints).excess, 5);
   EXPECT_TRUE(there.of_pair(0, 2, constraints).exact);

@@ -13,7 +13,7 @@
 namespace grove::detail {
 namespace node_record_test {
 
-// Nodes of a search, several levels deep.
+// Nodes of a search from several levels of its tree.
 class NodeRecords : public ::testing::Test {
  protected:
   NodeRecords() {
@@ -83,7 +83,7 @@ TEST_F(NodeRecords, AreRefusedIfInvalidForTheInstance) {
   refused([](NodeRecord& r) { r.cost = r.bound + 1; });
 }
 
-// A record with another path: every move goes left, through any obstacle.
+// The record gets a path in which every move goes left, even through obstacles.
 TEST_F(NodeRecords, AreRefusedIfPathsCrossObstacles) {
   NodeRecord record = record_of(*nodes_.back());
   record.paths[0].steps = 21;

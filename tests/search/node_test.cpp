@@ -87,7 +87,7 @@ TEST_F(NodeTest, ChildrenInheritPathsAndConstraints) {
 
 TEST_F(NodeTest, BoundIsNeverBelowTheParents) {
   EXPECT_EQ(root_->bound(), 5);
-  const NodePtr node = child(root_, 0, 1, {0, 1}, 4);  // an impossible improvement
+  const NodePtr node = child(root_, 0, 1, {0, 1}, 4);  // a cost below the parent's bound
   EXPECT_EQ(node->cost(), 4);
   EXPECT_EQ(node->bound(), 5);
 }

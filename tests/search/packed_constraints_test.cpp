@@ -17,7 +17,7 @@ std::string packed(std::span<const Constraint> constraints) {
   return PackedConstraints(constraints).bytes;
 }
 
-// Restores the list from its bytes, which shows that no other list has the same bytes.
+// Decodes the list from its bytes, which proves that no other list has the same bytes.
 class Unpacker {
  public:
   explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}
@@ -55,7 +55,7 @@ class Unpacker {
   std::string_view bytes_;
 };
 
-// `often` with probability 1/8, else a small or an extreme number, or any.
+// Returns `often` with probability 1/8, otherwise a small, an extreme or an arbitrary number.
 std::int32_t number(std::mt19937& random, std::int32_t often) {
   constexpr auto kLimits = std::numeric_limits<std::int32_t>();
   switch (random() % 8) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Examples; tests/fuzz/crowds.cpp compares with an exhaustive search on tiny dense instances.
+// Examples for the test of infeasibility. grove-fuzz-feasibility compares the test with an
+// exhaustive search on tiny dense instances.
 #include "search/pebble_motion.h"
 
 #include <gtest/gtest.h>
@@ -24,8 +25,8 @@ bool is_infeasible(const Instance& instance) {
   return pebble_motion_infeasibility(instance).has_value();
 }
 
-// Agents on all cells except `free`, row by row. Each has its start as goal, but the first two must
-// swap.
+// Returns an instance with agents on all cells except `free`, row by row. Each agent has its start
+// as its goal, but the first two agents must swap.
 Instance swapped(const Rows& rows, const std::vector<Position>& free) {
   std::vector<Position> cells;
   for (int y = 0; y < static_cast<int>(rows.size()); ++y)
@@ -73,7 +74,7 @@ TEST(PebbleMotion, NamesTheAgentAndItsUnreachablePlace) {
   EXPECT_EQ(reason(testing::instance_of(dead_end, agents)), "");
 }
 
-// If agents have no goal, a task that none of its agents can reach is detected.
+// A task that none of its agents can reach is detected even if agents have no goals.
 TEST(PebbleMotion, ChecksTasksOfAgentsWithoutGoals) {
   std::vector<AgentSpec> agents{
       {{0, 0}, {}, {{3, 1}}}, {{1, 0}, {}}, {{2, 0}, {}}, {{3, 0}, {}}, {{4, 0}, {}}};

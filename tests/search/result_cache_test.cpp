@@ -56,7 +56,7 @@ TEST(DependencyTable, ListsPartnersWithExcessOnce) {
   EXPECT_TRUE(partners_of(table, 6).empty());
 }
 
-// Subproblems of agents under `constraints` constraints of several kinds.
+// Identifies subproblems by agent, number of constraints and kind of constraints.
 class DependencyTableGroups : public ::testing::Test {
  protected:
   using Id = SubproblemTable::Id;
@@ -108,7 +108,7 @@ TEST_F(DependencyTableGroups, AreFoundOnceIfAllSubproblemsMatch) {
   EXPECT_EQ(other[0].known.excess, 2);
 }
 
-// Groups are listed under their two rarest subproblems, here those of agents 1 and 3.
+// A group is listed under its two rarest subproblems, which are here those of agents 1 and 3.
 TEST_F(DependencyTableGroups, AreDistinctIfOneSubproblemDiffers) {
   for (AgentIndex differs : {0, 2, 4}) {
     const auto at = [&](Cell kind) {
@@ -131,8 +131,8 @@ TEST_F(DependencyTableGroups, AreDistinctIfOneSubproblemDiffers) {
   }
 }
 
-// A query examines only groups whose two rarest subproblems match, however many groups contain a
-// subproblem that all nodes have.
+// A query examines only groups whose two rarest subproblems match, even if many groups contain a
+// subproblem that all nodes share.
 TEST_F(DependencyTableGroups, AreListedUnderTheirRarestSubproblems) {
   for (int kind = 0; kind < 50; ++kind)
     table_.merge_group({0, 1, 2}, {id(0, 0), id(1, 1, kind), id(2, 2, kind)}, {kind, false, 1});
@@ -148,7 +148,7 @@ TEST_F(DependencyTableGroups, AreListedUnderTheirRarestSubproblems) {
   EXPECT_EQ(found[0].known.excess, 7);
 }
 
-// Entries that are received from others arrive in another order.
+// Entries that other workers or ranks send arrive in a different order.
 TEST_F(DependencyTableGroups, DoNotDependOnTheNumberingOfSubproblems) {
   const std::vector<int> constraint_counts{3, 0, 2, 1};
   const std::vector<Constraint> elsewhere{{7, kNoCell, 0, 0}};
@@ -181,7 +181,8 @@ struct TwoWorkers : testing::RootFixture {
   WorkerCache other;
 };
 
-// A worker reads its own new entries at once, the others only after they are published.
+// A worker reads its own new entries immediately; other workers read them only after they have been
+// published.
 TEST(WorkerCache, IsPrivateUntilPublished) {
   TwoWorkers s;
   const SubproblemTable::Id id = s.view.subproblem(0);
@@ -221,7 +222,7 @@ TEST(WorkerCache, IsPrivateUntilPublished) {
 TEST(WorkerCache, DropsUnpublishedEntriesWhenItSwitchesCaches) {
   TwoWorkers s;
   s.memory.merge_pair(1, 2, 1, {3, true, 1});
-  s.memory.use_shared_cache(s.memory.common());  // the same cache: no effect
+  s.memory.use_shared_cache(s.memory.common());  // same cache: no effect
   EXPECT_EQ(s.memory.of_pair(1, 2).excess, 3);
   s.memory.use_shared_cache(std::make_shared<SharedCache>(SharedCache::Successor()));
   EXPECT_EQ(s.memory.of_pair(1, 2).excess, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A root node with the objects that a test needs to view or branch it.
+// A root node with the objects that tests need to view or branch it.
 #pragma once
 
 #include <memory>
@@ -35,8 +35,8 @@ struct RootFixture {
     view.enter(root, all);
   }
 
-  // Enters a child of the root in which the first agents take these paths, each as long as the
-  // root's.
+  // Enters a child of the root in which the first agents take these paths. Each path must be as
+  // long as the agent's path at the root.
   void take(const std::vector<std::vector<Position>>& routes) {
     std::vector<Path> paths;
     for (const auto& route : routes) {

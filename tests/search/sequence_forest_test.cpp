@@ -14,7 +14,7 @@ namespace sequence_forest_test {
 
 class ForestTest : public ::testing::Test {
  protected:
-  // Two agents with 3 and 2 tasks: 6 * 2 = 12 trees.
+  // Two agents with 3 and 2 tasks have 6 * 2 = 12 trees.
   ForestTest()
       : instance_(testing::instance_of(
             {".....", ".....", "....."},

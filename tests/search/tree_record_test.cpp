@@ -18,7 +18,7 @@
 namespace grove::detail {
 namespace tree_record_test {
 
-// Result of add(): "accepted" or the error message.
+// Calls add() and returns "accepted" or the error message.
 std::string answer(Trees& trees, const TreeRecord& record) {
   try {
     trees.add(record, 0);
@@ -35,14 +35,14 @@ class TreeRecords : public ::testing::Test {
           {.size = 10, .obstacles = 20, .agents = 8, .tasks = 14, .no_destination = 30}, 3))
       : instance_(std::move(instance)) {}
 
-  // The first `count` trees of the paper's forest.
+  // Returns the roots of the first `count` trees of a forest with fixed sequences.
   std::vector<NodePtr> fixed_roots(int count) {
     std::vector<NodePtr> roots;
     while (static_cast<int>(roots.size()) < count) roots.push_back(forest_.next_root());
     return roots;
   }
 
-  // Expects two trees with equal records, bounds, costs, paths and children.
+  // Expects that the two trees have equal records, bounds, costs, paths and children.
   void expect_same(const NodePtr& root, const NodePtr& restored) {
     EXPECT_EQ(record_of(restored->tree()), record_of(root->tree()));
     EXPECT_EQ(restored->bound(), root->bound());
@@ -90,7 +90,7 @@ TEST_F(TreeRecords, RestoreTreesOfFixedOrders) {
     }
   }
   EXPECT_EQ(trees_.size(), 20u);
-  EXPECT_EQ(restored_orders.size(), orders.size());  // orders are shared between trees as before
+  EXPECT_EQ(restored_orders.size(), orders.size());  // trees share orders as before
 }
 
 TEST_F(TreeRecords, RestoreTheTreeOfAllOrders) {
@@ -100,8 +100,9 @@ TEST_F(TreeRecords, RestoreTheTreeOfAllOrders) {
   for (const auto& order : restored->tree().orders) EXPECT_FALSE(order->goals);
 }
 
-// A class between these two: every order that begins as the tree's path does, or every order that
-// does not.
+// Sequence classes between a fixed sequence and all sequences: all orders with the same first stop
+// as the tree's path, and of these the orders with a different second stop, to which the path does
+// not belong.
 TEST_F(TreeRecords, RestoreTreesOfSequenceClasses) {
   TreeRecord record = record_of(fixed_roots(1)[0]->tree());
   const auto of_two = std::ranges::find_if(
@@ -126,7 +127,7 @@ TEST_F(TreeRecords, RestoreNodesBelowARestoredRoot) {
     EXPECT_EQ(record_of(*node_of(record_of(*child), restored, instance_)), record_of(*child));
 }
 
-// One agent with its tasks in two corners, one without a destination, and one that only waits.
+// Three agents: one with tasks in two corners, one without a destination, and one that only waits.
 class SmallTreeRecords : public TreeRecords {
  protected:
   SmallTreeRecords()
@@ -135,8 +136,8 @@ class SmallTreeRecords : public TreeRecords {
                                           {{0, 2}, {}, {{2, 2}, {1, 2}}},
                                           {{0, 1}, Position{0, 1}}})) {}
 
-  // Expects this result of add() after `corrupt` has changed a record of the fixed policy;
-  // expect_free: of the free policy.
+  // Expects this result of add() after `corrupt` has changed a record with fixed sequences.
+  // expect_free() does the same for a record with free sequences.
   template <class Corrupt>
   void expect(const char* message, Corrupt corrupt) {
     TreeRecord record = record_of(fixed_->tree());
@@ -164,7 +165,7 @@ class SmallTreeRecords : public TreeRecords {
 TEST_F(SmallTreeRecords, AreAcceptedUnchanged) {
   expect("accepted", [](TreeRecord&) {});
   expect_free("accepted", [](TreeRecord&) {});
-  // Without stops, a fixed and an open order are the same class but different orders.
+  // For an agent without stops, a fixed and a free order are the same class but different orders.
   EXPECT_TRUE(trees_.add(record_of(fixed_->tree()), 0)->tree().orders[2]->goals);
   EXPECT_FALSE(trees_.add(record_of(free_->tree()), 0)->tree().orders[2]->goals);
 }
@@ -200,12 +201,12 @@ TEST_F(SmallTreeRecords, AreRefusedIfAPathIsNoWalkOnTheMap) {
   expect("a tree's path must be a walk on the map from its agent's start",
          [](TreeRecord& r) { r.orders[0].words[0] = ~std::uint64_t{0}; });
   expect("a tree's path must be a walk on the map from its agent's start",
-         [](TreeRecord& r) { r.orders[0].words[0] = 0b010'001; });  // into the wall
+         [](TreeRecord& r) { r.orders[0].words[0] = 0b010'001; });  // into a wall
 }
 
 TEST_F(SmallTreeRecords, AreRefusedIfAPathMissesItsStops) {
   const char* message = "a tree's path must visit its agent's stops in order";
-  // These paths miss the tasks, end before the destination, visit the tasks in reverse order, or
+  // These paths miss both tasks, end before the destination, visit the tasks in reverse order, or
   // miss the last task.
   expect(message, [&](TreeRecord& r) {
     take_path(r.orders[0], {{0, 0}, {0, 1}, {0, 2}, {1, 2}, {2, 2}, {3, 2}});
@@ -222,7 +223,7 @@ TEST_F(SmallTreeRecords, AreRefusedIfAPathMissesItsStops) {
   });
 }
 
-// A longer path would claim a bound that is not proven.
+// A path longer than necessary would claim a bound that is not proven.
 TEST_F(SmallTreeRecords, AreRefusedIfAPathIsNotShortest) {
   const char* message = "a tree's path must be shortest in its order of stops";
   const auto wait = [&](TreeRecord& r) { take_path(r.orders[2], {{0, 1}, {0, 1}}); };

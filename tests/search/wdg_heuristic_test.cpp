@@ -16,7 +16,7 @@ using Outcome = WdgHeuristic::Outcome;
 struct Bounded : RootFixture {
   using RootFixture::RootFixture;
 
-  // Bound of the root minus its cost.
+  // Returns the bound of the root minus its cost.
   Cost excess(Cost cutoff = kInfiniteCost, BoundingEffort bounding_effort = BoundingEffort::kFull) {
     Cost bound = -1;
     EXPECT_EQ(wdg.find_bound(view.node(), view, cutoff, bounding_effort, limits, bound),
@@ -32,7 +32,8 @@ struct Bounded : RootFixture {
   WdgHeuristic wdg{problem, options, planner, memory};
 };
 
-// One agent passes the door at time 2 at the earliest, the other then at time 5: three steps late.
+// One agent passes the door at time 2 at the earliest. The other agent then passes it at time 5,
+// three steps late.
 const std::vector<std::string> kDoor{"..@..", ".....", "..@.."};
 const std::vector<AgentSpec> kHeadOn{{{0, 1}, Position{4, 1}}, {{4, 1}, Position{0, 1}}};
 
@@ -68,7 +69,7 @@ TEST(WdgHeuristic, ReturnsTheCutoffIfTheExcessReachesIt) {
   }
 }
 
-// A bound that was computed with little slack claims no more than that slack, also in later
+// If a bound was computed with little slack, it claims no more than that slack, even in later
 // queries.
 TEST(WdgHeuristic, ClaimsNoMoreThanTheSlackHasProven) {
   for (const Cost above : {1, 2, 3}) {
@@ -88,7 +89,7 @@ TEST(WdgHeuristic, AddsTheWeightsOfDisjointPairs) {
 
 TEST(WdgHeuristic, SplitsOnTheCostsOfADependentPair) {
   Bounded s(kDoor, kHeadOn);
-  EXPECT_TRUE(s.splits().empty());  // before any weight is cached
+  EXPECT_TRUE(s.splits().empty());  // no weight is cached yet
   s.excess();
   const auto splits = s.splits();
   ASSERT_EQ(splits.size(), 1u);
@@ -101,16 +102,16 @@ TEST(WdgHeuristic, SplitsOnTheCostsOfADependentPair) {
   }
 }
 
-// An agent without a destination may rest on any of its tasks: it can avoid its cost in other ways
-// than to come to rest later.
+// An agent without a destination may rest on any of its tasks, so it can avoid its current cost in
+// other ways than by coming to rest later.
 TEST(WdgHeuristic, SplitsNoCostsOfAgentsWithoutADestination) {
   Bounded s(kDoor, {{{0, 1}, std::nullopt, {{4, 1}}}, {{4, 1}, std::nullopt, {{0, 1}}}});
   EXPECT_GT(s.excess(), 0);
   EXPECT_TRUE(s.splits().empty());
 }
 
-// Any two of these agents can keep their costs, all three cannot: the excess is two steps, as an
-// exhaustive search shows.
+// Any two of these agents can keep their costs, but not all three. The excess is two steps,
+// according to an exhaustive search.
 TEST(WdgHeuristic, ComputesTheExcessOfAGroupOfIndependentPairs) {
   const std::vector<std::string> rows{"....", "....", "...."};
   const std::vector<AgentSpec> three{
@@ -121,7 +122,7 @@ TEST(WdgHeuristic, ComputesTheExcessOfAGroupOfIndependentPairs) {
   EXPECT_EQ(with.excess(), 2);
 }
 
-// When the search by splits ends at its node limit, joint search continues.
+// When the search by splits reaches its node limit, joint search takes over.
 TEST(WdgHeuristic, UsesJointSearchAtTheNodeLimitOfSplits) {
   SearchOptions options{Techniques::defaults().without({Technique::kCorridor, Technique::kTarget}),
                         0, true};

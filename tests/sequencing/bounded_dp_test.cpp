@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The sequence graph: the costs that it holds are exact, and its bound on all other sequences is
-// proven. rtsp_test.cpp compares small n with brute force. This file tests the relaxation state by
-// state, compares the graph with Held-Karp, and covers sizes that no table reaches.
+// Tests the sequence graph: its costs are exact, and its bound on all other sequences is proven.
+// rtsp_test.cpp compares small instances with brute force. This file tests the relaxation state by
+// state, compares the graph with Held-Karp, and covers sizes beyond the reach of any table.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ StopSet stop_of(const CostMatrix& matrix, int port) {
   return bit(port / matrix.ports);
 }
 
-// The least cost from row `at` through all stops of `left` to the end, by enumeration.
+// Returns the least cost from row `at` through all stops of `left` to the end, by enumeration.
 Time cheapest_rest(const CostMatrix& matrix, StopSet left, int at) {
   if (left == 0) return matrix.to_end(at);
   Time best = kNever;
@@ -65,8 +65,9 @@ TEST(OneTreeRelaxation, BoundsEveryState) {
         }
 }
 
-// Enumerates all orders of the stops in `left` and all choices of one port for each stop. Calls
-// visit(cost) for each with cost <= cost_limit whose states all satisfy `may_pass`.
+// Enumerates all orders of the stops in `left` and all choices of a port for each stop. Calls
+// visit(cost) for each choice that costs at most `cost_limit` and whose states all satisfy
+// `may_pass`.
 template <class MayPass, class Visit>
 void walk(const CostMatrix& matrix, StopSet left, int at, Time cost, Time cost_limit,
           const MayPass& may_pass, const Visit& visit) {
@@ -122,7 +123,8 @@ TEST(SequenceDag, HoldsExactlyTheSequencesBelowItsBound) {
         }
 }
 
-// For every set: the bound from each of its stops through the others, compared with all orders.
+// Compares, for every set, the bound from each of its stops through the remaining stops with all
+// orders.
 TEST(OneTreeRelaxation, TreeOfSetBoundsPathsThatBeginInIt) {
   Random random(34);
   int above_zero = 0;
@@ -152,7 +154,7 @@ TEST(SequenceDag, HasExactCostsToGo) {
         turning_matrix(4, Variant::kMg, random)}) {
     const auto dag = SequenceDag::build(matrix, OneTreeRelaxation(matrix), kNever - 1, limits);
     ASSERT_TRUE(dag);
-    EXPECT_EQ(dag->outside_bound(), kNever);  // nothing was dropped
+    EXPECT_EQ(dag->outside_bound(), kNever);  // the graph is complete
     for (StopSet left = 0; left < matrix.all(); ++left)
       for_each_port(matrix, matrix.all() & ~left, [&](int at) {
         EXPECT_EQ(dag->cost_to_go(left, at), cheapest_rest(matrix, left, at));
@@ -160,8 +162,8 @@ TEST(SequenceDag, HasExactCostsToGo) {
   }
 }
 
-// The shifts at ports account for the cost of turns between two legs, which a spanning tree over
-// the least legs cannot.
+// Shifts at the ports account for the cost of turns between two legs, which a spanning tree over
+// the least legs does not.
 TEST(OneTreeRelaxation, AccountsForMostTurnCosts) {
   Random random(35);
   Time without_turns = 0;
@@ -203,7 +205,8 @@ class OnMaps : public ::testing::Test {
   Limits limits_;
 };
 
-// Upper bound: the cost of a local optimum, found by moving single stops while the cost decreases.
+// Returns an upper bound: the cost of a local optimum, found by moving single stops as long as the
+// cost decreases.
 Time improved_cost(const CostMatrix& matrix, Sequence sequence) {
   Time cost = sequence_cost(matrix, sequence);
   for (bool better = true; better;) {
@@ -241,9 +244,9 @@ TEST_F(OnMaps, AgreesWithHeldKarp) {
     });
 }
 
-// The optimum is between the lower bound and the heuristic. The first 100 sequences of the list
-// visit all stops and have the listed costs. A graph whose cost limit is higher by 2 holds the same
-// costs.
+// The optimum lies between the lower bound and the heuristic cost. The first 100 sequences of the
+// list visit all stops and have the listed costs. A graph with a cost limit higher by 2 has the
+// same costs.
 TEST_F(OnMaps, SolvesThirtySixStops) {
   for (int n : {24, 30, 36})
     for_maps(n, 42, [&](const CostMatrix& matrix) {
@@ -271,7 +274,7 @@ TEST_F(OnMaps, SolvesThirtySixStops) {
     });
 }
 
-// Planted optimum: stops on a line, in shuffled order, are visited along the line.
+// The optimum is known: stops on a line, numbered in random order, are visited along the line.
 TEST(BoundedDp, FindsPlantedOptimumOfSixtyFourStops) {
   constexpr int kStops = 64;
   Random random(43);
@@ -288,7 +291,7 @@ TEST(BoundedDp, FindsPlantedOptimumOfSixtyFourStops) {
   const Limits limits;
   KBestSequences list(make_rtsp_solver(RtspBackend::kBoundedDp, matrix, limits), matrix, limits);
   EXPECT_EQ(list.resolve(0, kNever), 200);
-  EXPECT_EQ(list.resolve(1, kNever), 206);  // 63 swaps of two neighbours
+  EXPECT_EQ(list.resolve(1, kNever), 206);  // 63 swaps of neighbouring stops
   EXPECT_EQ(list.resolve(63, kNever), 206);
   EXPECT_EQ(list.resolve(64, 206), list.cost_bound(64));
   EXPECT_GT(list.cost_bound(64), 206);

@@ -8,7 +8,7 @@
 namespace grove::detail {
 namespace cost_matrix_test {
 
-// A row of cells, one of them blocked:  0 1 2 3 # 5
+// A row of cells of which one is blocked:  0 1 2 3 # 5
 Instance corridor(std::optional<Position> goal, const std::vector<Position>& tasks) {
   std::vector<bool> passable(6, true);
   passable[4] = false;

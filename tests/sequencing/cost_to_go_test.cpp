@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Costs to go compared with all orders, or with the Held-Karp table if there are too many orders.
+// Compares costs-to-go with all orders, or with the Held-Karp table if there are too many orders.
 #include "sequencing/cost_to_go.h"
 
 #include <gtest/gtest.h>
@@ -92,7 +92,7 @@ TEST(CostToGo, IsEmptyBeforeWidening) {
   }
 }
 
-// 15 and 16 stops: CostToGo uses the sequence graph; the reference is the Held-Karp table.
+// For 15 and 16 stops CostToGo uses the sequence graph; the reference is the Held-Karp table.
 class GraphTest : public ::testing::Test {
  protected:
   // Expects the exact cost-to-go at every state of each sequence that costs less than

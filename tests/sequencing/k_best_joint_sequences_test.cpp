@@ -15,7 +15,7 @@
 namespace grove::detail::testing {
 namespace k_best_joint_sequences_test {
 
-// A deque, because solvers keep references to the matrices.
+// A deque, because solvers keep references to its elements.
 struct Agents {
   std::deque<CostMatrix> matrices;
   Limits limits;
@@ -27,7 +27,7 @@ struct Agents {
     return {std::move(lists), limits};
   }
 
-  // The least `count` costs of all combinations, in ascending order.
+  // Returns the least `count` costs of all combinations, in ascending order.
   std::vector<Cost> product(std::size_t count) const {
     std::vector<Cost> sums{0};
     for (const CostMatrix& matrix : matrices) {
@@ -35,14 +35,15 @@ struct Agents {
       for (Time cost : all_costs(matrix, {}))
         for (Cost sum : sums) next.push_back(sum + cost);
       std::sort(next.begin(), next.end());
-      if (next.size() > count) next.resize(count);  // the least `count` sums need no others
+      if (next.size() > count) next.resize(count);  // larger sums cannot contribute
       sums = next;
     }
     return sums;
   }
 };
 
-// The costs of at most `count` joint sequences. Checks all guarantees of KBestJointSequences.
+// Returns the costs of the first joint sequences, at most `count`. Checks all guarantees of
+// KBestJointSequences.
 std::vector<Cost> first_costs(Agents& agents, RtspBackend backend, std::size_t count) {
   KBestJointSequences joint = agents.joint(backend);
   std::vector<Cost> costs;
@@ -70,7 +71,7 @@ std::vector<Cost> first_costs(Agents& agents, RtspBackend backend, std::size_t c
   return costs;
 }
 
-// Lists of 1 to 120 sequences, enumerated completely if there are at most `count` combinations.
+// Lists with 1 to 120 sequences, enumerated completely if there are at most `count` combinations.
 TEST(KBestJointSequences, EqualsTheProductOfTheLists) {
   Random random(21);
   for (int round = 0; round < fuzz_rounds(12); ++round)
@@ -91,7 +92,8 @@ TEST(KBestJointSequences, AgreesThroughCbc) {
   ASSERT_EQ(first_costs(agents, RtspBackend::kCbc, 100), agents.product(100));
 }
 
-// The list of the second agent ends first. All 2 * 6 combinations of the others must follow.
+// The list of the second agent ends first. All 2 * 6 combinations of the other lists must still
+// follow.
 TEST(KBestJointSequences, ListsAllCombinationsWhenAListEnds) {
   Random random(23);
   Agents agents;

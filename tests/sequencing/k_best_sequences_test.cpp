@@ -17,12 +17,12 @@ KBestSequences list_of(const CostMatrix& matrix, RtspBackend backend, const Limi
   return {make_rtsp_solver(backend, matrix, limits), matrix, limits};
 }
 
-// The costs of the first `count` sequences. Checks all guarantees of KBestSequences.
+// Returns the costs of the first `count` sequences. Checks all guarantees of KBestSequences.
 std::vector<Time> first_costs(const CostMatrix& matrix, RtspBackend backend, std::size_t count) {
   const Limits limits;
   KBestSequences list = list_of(matrix, backend, limits);
   std::vector<Time> costs;
-  std::set<std::vector<int>> seen;  // as int: GCC 12 warns of overlong comparisons of bytes
+  std::set<std::vector<int>> seen;  // as int: GCC 12 warns of comparisons of bytes
   for (std::size_t rank = 0; rank < count; ++rank) {
     const Time bound = list.cost_bound(rank);
     const Time cost = list.resolve(rank, kNever);
@@ -56,7 +56,7 @@ std::string name_of(const ::testing::TestParamInfo<RtspBackend>& info) {
   return names[static_cast<int>(info.param)];
 }
 
-// With up to 5 stops the lists are enumerated completely.
+// Lists for up to 5 stops are enumerated completely.
 TEST_P(KBestTest, FirstTwoHundredAgreeWithPermutations) {
   Random random(11);
   for (int round = 0; round < fuzz_rounds(GetParam() == RtspBackend::kCbc ? 1 : 4); ++round)
@@ -93,7 +93,7 @@ TEST_P(KBestTest, ResolvesOnlyUpToTheCutoff) {
     for (std::size_t rank = 0; rank < costs.size(); ++rank) {
       const Time bound = list.resolve(rank, costs[rank] - 1);
       ASSERT_FALSE(list.known(rank));
-      ASSERT_GE(bound, costs[rank]);  // proven to exceed the cutoff
+      ASSERT_GE(bound, costs[rank]);  // the bound proves that the cutoff is exceeded
       ASSERT_EQ(list.resolve(rank, costs[rank]), costs[rank]);
       ASSERT_TRUE(list.known(rank));
     }
@@ -114,8 +114,8 @@ INSTANTIATE_TEST_SUITE_P(, KBestTest, ::testing::ValuesIn(rtsp_backends()), name
 
 class BackendsAgree : public ::testing::Test {
  protected:
-  // Compares the costs of the first `count` sequences of n stops with Held-Karp, on every map, for
-  // CTS and MG.
+  // Compares the costs of the first `count` sequences of n stops with Held-Karp, on every map, with
+  // and without a destination.
   void compare(RtspBackend backend, int n, std::size_t count) {
     Random random(static_cast<unsigned>(n));
     for (const char* map : kMaps)
@@ -139,7 +139,7 @@ TEST_F(BackendsAgree, CbcAndTableOnAFewSequences) {
   compare(RtspBackend::kCbc, 14, 3);
 }
 
-// Takes minutes: runs only if GROVE_LONG_TESTS is set.
+// Takes minutes, so it runs only if GROVE_LONG_TESTS is set.
 TEST_F(BackendsAgree, AllThreeOnTheFirst200UpTo22Stops) {
   if (!is_built(RtspBackend::kCbc)) GTEST_SKIP() << "built without CBC";
   if (std::getenv("GROVE_LONG_TESTS") == nullptr) GTEST_SKIP() << "set GROVE_LONG_TESTS to run";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Limits in sequencing: a stopped call proves neither optimality nor infeasibility, its bounds are
-// valid, and no call hangs.
+// Tests limits in sequencing: a stopped call proves neither optimality nor infeasibility, its
+// bounds are valid, and no call hangs.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -55,8 +55,8 @@ TEST_P(LimitsInSequencing, InterruptStops) {
   expect_stopped(metric_matrix(8, Variant::kCts, random), limits);
 }
 
-// Random points in the plane, with costs so fine that few are equal. 64 of them are far too many
-// for the time limit.
+// Random points in the plane, with distances on so fine a scale that few costs are equal. 64 points
+// are far too many for the time limit.
 CostMatrix points_in_the_plane(int n, Random& random) {
   std::vector<std::pair<Time, Time>> at;
   for (int i = 0; i <= n; ++i)
@@ -113,7 +113,7 @@ TEST_P(LimitsInSequencing, JointListEndsWithoutClaimingCompleteness) {
 
 INSTANTIATE_TEST_SUITE_P(, LimitsInSequencing, ::testing::ValuesIn(rtsp_backends()), name_of);
 
-// A table that exceeds any memory is refused before it is allocated.
+// A table too large for any memory is refused before it is allocated.
 TEST(HeldKarp, RefusesTableOfFortyStops) {
   const CostMatrix matrix{CostMatrix::Matrix(41, 3)};
   const Limits limits;

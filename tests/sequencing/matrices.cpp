@@ -22,7 +22,8 @@ Grid random_grid(int width, int height, Random& random) {
   return {width, height, passable};
 }
 
-// The agent's start, its destination and its n tasks are distinct passable cells.
+// Returns an instance in which the agent's start, its destination and its n tasks are on distinct
+// passable cells.
 Instance instance_on(const Grid& grid, int n, Variant variant, Random& random, Motion motion = {},
                      Time longest_work = 0) {
   std::vector<Cell> cells;
@@ -82,7 +83,7 @@ CostMatrix metric_matrix(int n, Variant variant, Random& random) {
   for (int k = 0; k < places; ++k)
     for (int i = 0; i < places; ++i)
       for (int j = 0; j < places; ++j) d(i, j) = std::min(d(i, j), d(i, k) + d(k, j));
-  // Place n is the start, place n + 1 the end.
+  // In `d`, index n is the start and index n + 1 the end.
   CostMatrix matrix{CostMatrix::Matrix(n + 1)};
   for (int i = 0; i <= n; ++i) {
     for (int j = 0; j < n; ++j) matrix.cost(i, j) = d(i, j);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cost matrices for tests. Random ones depend only on the state of `random`.
+// Cost matrices for tests. Random matrices depend only on the state of `random`.
 #pragma once
 
 #include <optional>
@@ -17,32 +17,35 @@ using Random = std::mt19937;
 enum class Variant { kCts, kMg };
 inline constexpr Variant kVariants[] = {Variant::kCts, Variant::kMg};
 
-// An instance of one agent with n tasks on a small random grid; places may be unreachable.
+// Returns an instance with one agent and n tasks on a small random grid, possibly with unreachable
+// places.
 Instance random_instance(int n, Variant variant, Random& random);
 CostMatrix grid_matrix(int n, Variant variant, Random& random);
 
-// A random metric: symmetric, with the triangle inequality, without common parity; not from a grid.
+// A random metric: symmetric, satisfies the triangle inequality, without a common parity; not
+// derived from a grid.
 CostMatrix metric_matrix(int n, Variant variant, Random& random);
 
-// Arbitrary costs: asymmetric, some legs infeasible.
+// Arbitrary costs: asymmetric, with some infeasible legs.
 CostMatrix wild_matrix(int n, Variant variant, Random& random);
 
-// Arbitrary costs with four ports per stop; each leg between two ports has its own cost.
+// Arbitrary costs with four ports for each stop; each leg between two ports has its own cost.
 CostMatrix wild_port_matrix(int n, Variant variant, Random& random);
-// An agent that turns, with n tasks on a small random grid, some of which take time.
+// A turning agent with n tasks on a small random grid; some tasks have a duration.
 CostMatrix turning_matrix(int n, Variant variant, Random& random);
 
 void fill_column(CostMatrix& matrix, int column, Time cost);
-// Multiplies all costs.
+// Multiplies all costs by `factor`.
 void scale(CostMatrix& matrix, Time factor);
 
-// n tasks on a Moving AI map, from the starts of the first random scenario. Returns nullopt if the
-// map is missing.
+// Costs for n tasks on a Moving AI map, placed on the starts of the first random scenario. Returns
+// nullopt if the map is missing.
 std::optional<CostMatrix> map_matrix(const std::string& map, int n, Variant variant,
                                      Random& random);
 inline constexpr const char* kMaps[] = {"empty-32-32", "random-32-32-20", "room-32-32-4"};
 
-// A class of sequences of n stops: a random prefix, and a random set of stops forbidden after it.
+// Returns a class of sequences of n stops with a random prefix and a random set of stops that may
+// not follow it.
 SequenceClass random_class(int n, Random& random);
 
 }  // namespace grove::detail::testing

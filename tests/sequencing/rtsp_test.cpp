@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The three back ends compared with all permutations, on random classes with random cutoffs.
+// Compares the three back ends with all permutations, on random classes with random cutoffs.
 #include "sequencing/rtsp.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@
 namespace grove::detail::testing {
 namespace rtsp_test {
 
-// A back end; `canonical`: the bounded DP with a graph of canonical sequences, even where a graph
-// of all sequences would be small enough.
+// A back end. `canonical`: the bounded DP uses a graph of canonical sequences even if a graph of
+// all sequences is small enough.
 struct Solver {
   RtspBackend backend;
   bool canonical = false;
@@ -40,10 +40,10 @@ class RtspBackendTest : public ::testing::TestWithParam<Solver> {
     return make_rtsp_solver(GetParam().backend, matrix, limits_);
   }
 
-  // CBC takes milliseconds where the others take microseconds.
+  // CBC takes milliseconds where the other back ends take microseconds.
   int rounds() const { return fuzz_rounds(GetParam().backend == RtspBackend::kCbc ? 4 : 16); }
 
-  // Asks one solver about many classes, in any order and with any cutoffs.
+  // Queries one solver object about many classes, in random order and with random cutoffs.
   void expect_true_answers(const CostMatrix& matrix, Random& random) {
     const auto solver = make(matrix);
     const std::vector<Time> all = all_costs(matrix, {});
@@ -107,7 +107,7 @@ TEST_P(RtspBackendTest, AgreesWithAllPermutationsOnMetrics) {
       for (int n = 1; n <= 7; ++n) expect_true_answers(metric_matrix(n, variant, random), random);
 }
 
-// The back ends assume nothing about a matrix except the meaning of kNever.
+// The back ends make no assumption about the matrix except for the meaning of kNever.
 TEST_P(RtspBackendTest, AgreesWithAllPermutationsOnArbitraryMatrices) {
   Random random(3);
   for (int round = 0; round < rounds(); ++round)
@@ -123,8 +123,8 @@ TEST_P(RtspBackendTest, AgreesWithAllPermutationsOfEightStops) {
   }
 }
 
-// Stops on a line, where nearly every order has the same cost as some other. Some stops share a
-// place, and some take time.
+// Stops on a line, where nearly every order has the same cost as some other order. Some stops share
+// a place, and some take time.
 CostMatrix line_matrix(int n, Variant variant, Random& random) {
   std::vector<int> places;
   std::vector<Time> durations(static_cast<std::size_t>(n) + 1, 0);
@@ -166,8 +166,8 @@ TEST_P(RtspBackendTest, ReturnsSequenceOfAnEarlierCall) {
   }
 }
 
-// A row of n stops has 2^n optimal sequences. Earlier versions took seconds for 24 stops and
-// gigabytes for 30.
+// A row of n stops has 2^n optimal sequences. Early versions took seconds for 24 stops and
+// gigabytes for 30 stops.
 TEST(RowsOfStops, AreSequencedInOrder) {
   const Limits limits;
   for (const int n : {24, 40, 64})
@@ -178,7 +178,7 @@ TEST(RowsOfStops, AreSequencedInOrder) {
         for (int to = 0; to < n; ++to) matrix.cost(from, to) = std::abs(place(from) - place(to));
       for (int from = 0; from <= n; ++from) matrix.cost(from, n) = place(from);
       const Time ends = std::max(place(n - 1), start);
-      const Time cost = ends - start + ends;  // to the far end, and back to 0
+      const Time cost = ends - start + ends;  // to the far end and back to 0
       const auto solver = make_rtsp_solver(RtspBackend::kAuto, matrix, limits);
       const RtspAnswer answer = solver->best({}, kNever);
       EXPECT_EQ(answer.kind, RtspAnswer::Kind::kExact);
@@ -229,7 +229,7 @@ TEST_P(RtspBackendTest, UnreachableStopIsInfeasible) {
   EXPECT_EQ(solver->best({{1, 2}, 0}, kNever).kind, RtspAnswer::Kind::kInfeasible);
 }
 
-// Costs that do not fit 16 bits.
+// Costs that do not fit in 16 bits.
 TEST_P(RtspBackendTest, SolvesCostsAboveSixteenBits) {
   Random random(6);
   for (Variant variant : kVariants) {
@@ -243,7 +243,7 @@ TEST_P(RtspBackendTest, SolvesCostsAboveSixteenBits) {
 
 INSTANTIATE_TEST_SUITE_P(, RtspBackendTest, ::testing::ValuesIn(solvers()), name_of);
 
-// Bounds from the relaxation only, on matrices whose optimum is known.
+// Uses only bounds from the relaxation, on matrices with a known optimum.
 TEST(RelaxationBound, IsNeverAboveTheOptimum) {
   Random random(7);
   for (int round = 0; round < fuzz_rounds(40); ++round)

@@ -17,7 +17,7 @@ Time distance(const Instance& instance, Cell from, Cell to) {
   return distance_field(instance.grid(), to)[from];
 }
 
-// The least cost of all orders of visits.
+// Returns the least cost over all orders of visits.
 Time best_by_brute_force(const Instance& instance, const Agent& agent) {
   std::vector<std::size_t> order(agent.tasks.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

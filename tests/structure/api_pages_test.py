@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks that doxygen, which makes the API pages, finds every public entity of include/grove/*.hpp documented.
+"""Checks that doxygen, which generates the API pages, finds every public entity of include/grove/*.hpp documented.
 
     api_pages_test.py SOURCE_DIR DOXYFILE DOXYGEN
 
-Exit code 77: doxygen is not installed.
-
+Exits with code 77 if doxygen is not installed.
 """
 import subprocess
 import sys
@@ -21,7 +20,8 @@ UNDOCUMENTED = {"a function": "void nothing();", "a member": "/// A.\nstruct A {
 
 
 def make(*lines, pages="*.html"):
-    """Runs doxygen with the Doxyfile and `lines`. Returns (exit code, warnings, {name of a page: text})."""
+    """Runs doxygen with the Doxyfile and the additional `lines`. Returns (exit code, warnings, {name of a page:
+    text})."""
     with tempfile.TemporaryDirectory() as folder:
         configuration = "\n".join([DOXYFILE.read_text(), f"OUTPUT_DIRECTORY = {folder}", *lines])
         done = subprocess.run([DOXYGEN, "-"], input=configuration, capture_output=True, text=True, check=False)
@@ -30,7 +30,7 @@ def make(*lines, pages="*.html"):
 
 
 def undocumented_values(text):
-    """Returns the enumerators without a comment in doxygen's XML, because doxygen does not warn about them."""
+    """Returns the enumerators without a comment in doxygen's XML. Doxygen does not warn about them."""
     values = xml.etree.ElementTree.fromstring(text).iter("enumvalue")
     return [value.findtext("name") for value in values
             if not any("".join(value.find(kind).itertext()).strip()

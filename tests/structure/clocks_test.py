@@ -13,7 +13,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from structure_test import ROOT, without_comments_and_strings  # noqa: E402
 
-# Other tests take the time from tests/support/clocks.h and wait by tests/support/waiting.py or run_program().
+# Other tests take the time from tests/support/clocks.h and wait with tests/support/waiting.py or run_program().
 TESTS = {
     "support/clocks.h": "the limit that ends tests that hang",
     "support/subprocess.cpp": "waits for the end of a program, and kills one that hangs",
@@ -53,7 +53,7 @@ SLEEPS_CPP = re.compile(r"\bsleep_(?:for|until)\b|\bwait_(?:for|until)\s*\(\s*\w
 PYTHON = re.compile(r"\btime\.(?:sleep|time|monotonic|perf_counter|process_time)(?:_ns)?\(|\bthreading\.Timer\("
                     r"|\bfrom time import|\bdatetime\.now\(")
 SCRIPT = re.compile(r"\b(?:performance|Date)\.now\(|\bsetTimeout\(")
-SHELL = re.compile(r"\bsleep (?:\d?\.\d+|[1-9]\d?)(?![\d.])")  # sleeps that end, not those that simulate a program that hangs
+SHELL = re.compile(r"\bsleep (?:\d?\.\d+|[1-9]\d?)(?![\d.])")  # not the long sleeps of simulated hangs
 
 
 def uses_time(name, text):

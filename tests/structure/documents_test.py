@@ -50,7 +50,7 @@ MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OM
 
 class Block(NamedTuple):
     script: str
-    shown: list  # expected lines of output
+    shown: list  # expected output lines
     mark: str  # "", "slow" or "not run"
     line: int
 
@@ -74,7 +74,7 @@ def blocks(document):
 
 
 def commands(script):
-    """Returns the lines at which commands begin, without comments and the text of here-documents."""
+    """Returns the lines at which commands start, ignoring comments and here-documents."""
     found, is_continued, end = [], False, None
     for line in script.splitlines():
         if end:
@@ -89,24 +89,24 @@ def commands(script):
 
 
 def harmful(block):
-    """Returns a program of the block that is not in HARMLESS. Returns None if there is none."""
+    """Returns a program of the block that is not in HARMLESS, or None."""
     parts = [part for command in commands(block.script) for part in re.split(r" (?:&&|\|\|?|;) ", command)]
     return next((part for part in parts if not HARMLESS.match(part)), None)
 
 
 def hidden(document):
-    """Returns commands that no test would run."""
+    """Returns commands outside the blocks that tests run."""
     fenced = re.sub(r"^```\w+[ ]*\n.*?^```", "", document, flags=re.M | re.S)
     return [found.group().strip() for found in HIDDEN.finditer(fenced)]
 
 
 def normalised(line):
-    """Returns the line with numbers replaced by # and white space reduced, because these differ from run to run."""
+    """Returns the line with numbers replaced by # and white space reduced, because both differ from run to run."""
     return re.sub(r"\d[\w.,]*", "#", " ".join(line.split()))
 
 
 def missing_line(shown, output):
-    """Returns the first line of `shown` that is not in the output. Returns None if all are."""
+    """Returns the first line of `shown` that is missing in the output, or None."""
     printed = [normalised(line) for line in output.splitlines()]
     for line in shown:
         start = normalised(line.removesuffix("..."))
@@ -116,15 +116,15 @@ def missing_line(shown, output):
 
 
 def start_shell(folder):
-    """Writes the state of a document's shell: its folder and, after the first block, its variables. Returns the
-    path."""
+    """Writes the initial state of a document's shell (its folder; each block adds its variables) and returns the
+    path of the file."""
     state = folder / ".shell"
     state.write_text(f'export PATH="{folder}/build/release/bin:$PATH"\ncd "{folder}"\n', encoding="utf-8")
     return state
 
 
 def run(block, state):
-    """Returns what failed, or None."""
+    """Runs a block and returns a description of its failure, or None."""
     seconds = SECONDS[block.mark == "slow"]
     script = f". {state}\nset -ev -o pipefail\n{block.script}\nset +v\n" \
         f"{{ export -p; printf 'cd %q\\n' \"$PWD\"; }} >{state}\n"
@@ -141,8 +141,8 @@ def run(block, state):
 
 
 def tree(root, programs, folder, may_build):
-    """Makes a copy of the tree. If nothing is built, programs and sources are linked, because no command writes
-    there."""
+    """Creates a copy of the tree. If no block builds anything, programs and sources are linked instead of copied,
+    because no command writes to them."""
     linked = set() if may_build else SOURCES
     left_out = {"build", ".git", "results"} | linked
     shutil.copytree(root, folder, symlinks=True,

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Checks that a failed search for MPI reports the cause and does not make the next search fail.
 
-    find_mpi_test.py SOURCES COMPILER MPICXX      MPICXX: the compiler wrapper of an MPI
-
+    find_mpi_test.py SOURCES COMPILER MPICXX      MPICXX: the compiler wrapper of an MPI installation
 """
 import subprocess
 import sys
@@ -36,7 +35,7 @@ class FindMpi(unittest.TestCase):
         return path
 
     def configure(self, *options):
-        """Returns the exit code and the error output, joined to one line (CMake wraps messages)."""
+        """Runs CMake and returns the exit code and the error output as one line (CMake wraps messages)."""
         done = subprocess.run(["cmake", "-S", self.folder, "-B", self.folder / "build", *options],
                               capture_output=True, text=True)
         return done.returncode, " ".join(done.stderr.split())

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks that every file includes what it names, itself or by headers of Grove, so that it compiles alone and after any
-other file. The compiler does not detect a missing include, because it compiles several sources as one and after
-precompiled headers.
+"""Checks that every file includes what it uses, directly or through headers of Grove, so that it compiles alone and
+after any other file.
+
+The compiler does not detect a missing include, because it compiles several sources as one and uses precompiled
+headers.
 
     includes_test.py [ROOT]   checks the tree at ROOT, by default this one
-
 """
 import re
 import sys
@@ -15,7 +16,7 @@ from pathlib import Path
 from structure_test import CPP, ROOT, named_types, without_comments_and_strings
 
 FOLDERS = ["include", "src", "mpi", "tools", "python", "tests", "benchmarks"]
-# Names of std:: by header, without those that almost every header includes, such as std::move.
+# Names in std:: by header, except names that almost every header includes, such as std::move.
 STANDARD = {
     "algorithm": "any_of all_of binary_search clamp copy count count_if equal_range fill find find_if "
                  "lower_bound make_heap max max_element min min_element minmax none_of nth_element "
@@ -64,7 +65,7 @@ def standard_names(code):
 
 
 def other_names(code):
-    """Returns the identifiers, except those of members, other namespaces and tests."""
+    """Returns the identifiers in the code, except members, names in other namespaces, and tests."""
     code = re.sub(r"\b\w*TEST\w*\(\s*\w+,\s*\w+", "", code)
     return set(re.findall(r"(?:(?<![.>\w:])|\bgrove::(?:detail::)?)(\w+)", code))
 
@@ -74,7 +75,7 @@ def declared_names(code):
 
 
 class Tree:
-    """The sources below a folder: {path: text}."""
+    """Holds the sources below a folder: {path: text}."""
 
     def __init__(self, root, texts):
         self.root, self.texts = root, texts
@@ -101,7 +102,7 @@ class Tree:
         return seen
 
     def missing(self, path):
-        """Returns what `path` names without an include: {name: headers that define it}."""
+        """Returns the names that `path` uses without an include: {name: headers that define it}."""
         seen = self.seen_by(path)
         standard = {header for each in seen
                     for header in re.findall(r"^\s*#\s*include\s*<([^>]+)>", self.texts[each], re.M)}

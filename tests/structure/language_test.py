@@ -15,7 +15,7 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-# Words that readers take for something else, or that name no actor; what to write instead.
+# Words that readers misunderstand or that name no actor, each with the words to use instead.
 WORDS = {
     r"whoever|nobody|somebody|everybody|anybody": "the caller, no thread, another rank, all agents",
     r"(?:go|goes|going|gone|went) on": "continue, resume",
@@ -44,16 +44,16 @@ WORDS = {
     r"crowd(?:s|ed|ing)?": "dense instance, congested",
 }
 WORD = re.compile("|".join(rf"(?<![A-Za-z])(?:{words})(?![A-Za-z])" for words in WORDS), re.I)
-# Data, generated files, and texts of others.
+# Data, generated files and third-party texts.
 EXCLUDED = ["*.csv", "*.html", "*.png", "*.svg", "*.gif", "*.xml", "*.scen", "*.map", "*.graphml", "*.pdf", "*.zst",
             "LICENSE*", "*/fonts/*", "tools/vda5050/grove_vda5050/schemas/*", "tests/fuzz/cases/*",
             "tests/structure/language_*"]
-LONGEST_LINE = 140  # of prose in documents
+LONGEST_LINE = 140  # limit for prose in documents
 
 
 @functools.cache
 def texts():
-    """Returns (name, text) of each file that is checked."""
+    """Returns (name, text) of each file to check."""
     if not (ROOT / ".git").exists():
         raise unittest.SkipTest("not a clone: which files belong to Grove is unknown")
     names = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
@@ -70,26 +70,26 @@ def texts():
 
 @functools.cache
 def uses():
-    """Returns (name of the file, line number, word) of each use of a word of the list."""
+    """Returns (file name, line number, word) of each use of a listed word."""
     return [(name, number, word) for name, text in texts() for number, word in words_in(text)]
 
 
 def words_in(text):
-    """Yields (line number, word) of each word of the list, in identifiers as well."""
+    """Yields (line number, word) of each listed word in a text, including identifiers."""
     for number, line in enumerate(text.splitlines(), 1):
         for found in WORD.finditer(re.sub(r"(?<=[a-z])(?=[A-Z])", " ", line.replace("_", " "))):
             yield number, found.group().lower()
 
 
 def allowed():
-    """Returns (pattern of files, word) of language_allowed.txt."""
+    """Returns the entries (file pattern, word) of language_allowed.txt."""
     lines = (ROOT / "tests/structure/language_allowed.txt").read_text(encoding="utf-8").splitlines()
     rows = [line.split("|") for line in lines if line and not line.startswith("#")]
     return [(pattern.strip(), word.strip()) for pattern, word, _ in rows]
 
 
 def prose(text):
-    """Yields (line number, line) of a Markdown text without code blocks."""
+    """Yields (line number, line) of a Markdown text, skipping code blocks."""
     is_code = False
     for number, line in enumerate(text.splitlines(), 1):
         if line.lstrip().startswith("```"):

@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks that links between documents have a target, and that the README is short.
+"""Checks that links between documents have existing targets, and that the README is short.
 
     links_test.py [ROOT]   checks the documents of the tree at ROOT, by default this one
-
 """
 import re
 import sys
@@ -18,7 +17,7 @@ LINK = re.compile(r"\]\(<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\)|^\[[^\]]+\]:\s*(\S+)|
 
 
 def prose(document):
-    """Returns the document without code in lines and with blocks of code replaced by empty lines."""
+    """Returns the document without inline code and with code blocks replaced by empty lines."""
     without_blocks = FENCE.sub(lambda block: "\n" * block.group().count("\n"), document)
     return re.sub(r"(`+)(?!`).*?(?<!`)\1(?!`)", "", without_blocks)
 
@@ -28,7 +27,7 @@ def links(document):
 
 
 def anchor(heading):
-    """Returns GitHub's anchor of a heading: lower case, spaces as '-', of other signs only '-' and '_'."""
+    """Returns GitHub's anchor for a heading: lower case, spaces as '-', no punctuation except '-' and '_'."""
     text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).replace("`", "").replace("*", "")
     return re.sub(r"[^\w\- ]", "", text.strip().lower()).replace(" ", "-")
 
@@ -43,7 +42,7 @@ def anchors(document):
 
 
 def dead(link, page, root):
-    """Returns why a link of `page` has no target, or None. Links to other hosts are not checked."""
+    """Returns the reason why a link in `page` has no target, or None. Links to other hosts are not checked."""
     if re.match(r"[a-z][a-z0-9+.-]*:", link):
         return None
     target, _, name = link.partition("#")
@@ -83,7 +82,7 @@ class TheTree(unittest.TestCase):
 
 
 class TheChecks(unittest.TestCase):
-    """Tests of the checks."""
+    """Tests the checks themselves."""
 
     def test_links_are_found(self):
         text = "[a](b.md#c) ![d](e.svg) `[f](g)` ``[h](`i`)``\n```sh\n[j](k)\n```\n<img src=\"l.png\"> [m](<n> \"o\")\n[p]: q\n"

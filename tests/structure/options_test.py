@@ -1,13 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks that the option table of docs/command-line.md has the options of the program.
+"""Checks that the option table of docs/command-line.md agrees with the program.
 
     options_test.py PAGE GROVE
 
-Every option of `grove solve --help` must be in the table below "## Options of grove solve", and every option of that
-table in the help. The same holds for the techniques of `--without`. Exit codes: 0 they agree, 1 they differ, 77 the
-program is not built.
-
+Every option in `grove solve --help` must be in the table under "## Options of grove solve" and vice versa. The same
+holds for the techniques of `--without`. Exit codes: 0 agreement, 1 disagreement, 77 the program is not built.
 """
 import re
 import subprocess

@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks that everything that CMake searches for belongs to a Debian package of the right list.
+"""Checks that each package that CMake searches for belongs to a Debian package in the right list.
 
     packages_test.py [ROOT]   checks the tree at ROOT, by default this one
 
-The build searches only for packages of tools/packages, required or not: otherwise a package that happens to be
-installed would change what is built. Tests and benchmarks may also need packages of tools/packages.test, with which
-`tools/test` runs, and of tools/packages.test-all.
-
+The build searches only for packages in tools/packages, required or not, because otherwise a package that happens to
+be installed would change what is built. Tests and benchmarks can also use packages in tools/packages.test, with
+which `tools/test` runs, and in tools/packages.test-all.
 """
 import re
 import sys
@@ -16,7 +15,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 
-# Debian packages by the name that CMake searches for.
+# Debian packages by the name for which CMake searches.
 PACKAGES = {
     "fmt": ["libfmt-dev"],
     "nlohmann_json": ["nlohmann-json3-dev"],
@@ -47,13 +46,13 @@ PACKAGES = {
     "ccache": ["ccache"],
     "Doxygen": ["doxygen"],
 }
-# These speed up the build or add a separate target. The default build is the same without them.
+# Packages that speed up the build or add a separate target, without an effect on the default build.
 HARMLESS = {"ccache", "Doxygen"}
 FOR_TESTS = ("tests", "benchmarks")
 
 
 def searched_names(cmake):
-    """Returns [(name, required)] of the calls in CMake's text that search for something."""
+    """Returns [(name, required)] of the calls in a CMake text that search for a package or program."""
     code = re.sub(r"#[^\n]*", "", cmake)
     found = []
     for call, text in re.findall(r"\b(find_package|pkg_check_modules|pkg_search_module|find_program|find_library"
@@ -71,7 +70,7 @@ def searched_names(cmake):
 
 
 def packages_of(text):
-    """Returns the packages of a list as tools/setup.sh reads it."""
+    """Returns the packages in a list, read in the same way as by tools/setup.sh."""
     return {line.split()[0] for line in text.splitlines() if line.strip() and not line.startswith("#")}
 
 
@@ -82,7 +81,7 @@ def default_of(cmake, option):
 
 class ThePackages(unittest.TestCase):
     def searches(self):
-        """Yields (file, name, required) of the build, without examples/ros2, which is a separate project."""
+        """Yields (file, name, required) for all searches of the build, except in examples/ros2, a separate project."""
         files = [path for path in [*ROOT.rglob("CMakeLists.txt"), *ROOT.rglob("*.cmake")]
                  if not {"build", "ros2"} & set(path.relative_to(ROOT).parts)]
         for path in sorted(files):
@@ -121,7 +120,7 @@ class ThePackages(unittest.TestCase):
 
 
 class TheChecks(unittest.TestCase):
-    """Tests of the checks."""
+    """Tests the checks themselves."""
 
     def test_searches_are_found(self):
         text = """find_package(A 3.1 REQUIRED COMPONENTS X)  # find_package(No)

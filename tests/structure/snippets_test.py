@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks that the C++ in a document compiles and, unless it is a complete program, runs.
+"""Checks that the C++ code in a document compiles and, unless it is a complete program, runs.
 
     snippets_test.py DOCUMENT COMPILER LIBRARY INSTANCE INCLUDE_DIR...
 
-A ```cpp block with a main() is a program. The other blocks form, in order, the body of one function, which is linked
-with LIBRARY, if it exists, and runs in a folder where INSTANCE is depot.cts.json. Programs that include mpi.hpp are
-left out if no INCLUDE_DIR has mpi.h.
-
+A ```cpp block with a main() is a program. All other blocks form, in order, the body of one function. It is linked
+with LIBRARY, if that exists, and runs in a folder where INSTANCE is depot.cts.json. Programs that include mpi.hpp
+are skipped if no INCLUDE_DIR has mpi.h.
 """
 import re
 import shutil
@@ -26,7 +25,7 @@ int main() {
 
 
 def programs(document):
-    """Returns the sources of the programs, with their line numbers in the document."""
+    """Returns the sources of the programs in the document, with their line numbers."""
     found, body = [], ""
     for match in BLOCK.finditer(document):
         line = document.count("\n", 0, match.start()) + 2
@@ -38,7 +37,7 @@ def programs(document):
 
 
 def complaints(compiler, folders, source, *options):
-    """Returns the compiler's errors and warnings, without those in headers of Grove."""
+    """Compiles a source and returns the errors and warnings, except those in Grove headers."""
     includes = [word for folder in folders for word in ("-isystem", folder)]
     done = subprocess.run([compiler, "-std=c++20", "-Wall", "-Wextra", "-Werror", "-Wno-unused-variable",
                            "-Wno-unused-but-set-variable", *includes, "-x", "c++", "-", *(options or ["-fsyntax-only"])],

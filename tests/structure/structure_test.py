@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks the structure of the source tree: which layer may include which, and what no source may contain.
+"""Checks the structure of the source tree: which layers each layer may include, and what no source may contain.
 
     structure_test.py [ROOT]   checks the tree at ROOT, by default this one
-
 """
 import re
 import sys
@@ -11,7 +10,7 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-# Lowest layer first. Each layer may use only those before it.
+# Lowest layer first. Each layer may use only the layers before it.
 LAYERS = ["model", "execution", "io", "sequencing", "planning", "joint", "lagrangian", "conflicts", "search", "proof", "primal", "baselines",
           "engine", "batch", "api", "mpi", "tools"]
 CODE_FOLDERS = ["include", "src", "mpi", "cluster", "examples", "python", "tools", "tests", "benchmarks"]
@@ -25,7 +24,7 @@ FORBIDDEN_IN_LIBRARIES = {
 
 
 def without_comments_and_strings(text):
-    """Returns the code with comments and the contents of strings removed; lines and quotes stay."""
+    """Returns the code without comments and without the contents of strings. Line ends and quotes remain."""
     token = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"'
                        r"|(?<!\w)'(?:\\.|[^'\\\n])+'", re.S)
 
@@ -37,7 +36,7 @@ def without_comments_and_strings(text):
 
 
 def includes(text):
-    """Returns the headers of layers that `text` includes: "search/global_bounds.h"."""
+    """Returns the layer headers that `text` includes, for example "search/global_bounds.h"."""
     named = re.findall(r'^\s*#\s*include\s*"([\w./]+)"', text, re.M)
     return {name for name in named if name.split("/")[0] in LAYERS}
 
@@ -69,14 +68,14 @@ def has_license(text):
 
 
 def named_files(document):
-    """Returns the sources that a document names, except placeholders: `mine.cpp`, `x_test.cpp`."""
+    """Returns the source files that a document names, except placeholders such as `mine.cpp` and `x_test.cpp`."""
     named = re.findall(r"`(?:\./)?([\w./-]+\.(?:cpp|h|py|def|cmake))`", document)
     return [name for name in named if not re.match(r"(?:.*/)?(?:mine|my_\w*|x_\w+)\.", name)]
 
 
 def named_types(text, is_header):
-    """Returns the types that `text` defines in a named namespace or in none: "grove::Grid". Aliases count only in
-    headers."""
+    """Returns the types that `text` defines in a named namespace or at global scope, for example "grove::Grid".
+    Aliases count only in headers."""
     code = re.sub(r"^\s*#(?:[^\n\\]|\\\n)*", "", without_comments_and_strings(text), flags=re.M)
     found, scopes, start = [], [], 0
     for token in re.finditer(r"[{};]", code):
@@ -116,7 +115,7 @@ def private_headers(cmake):
 
 
 def as_included(path):
-    """Returns how sources include the header at `path`: "search/frontier.h"."""
+    """Returns the path by which sources include the header at `path`, for example "search/frontier.h"."""
     return path.relative_to(ROOT / "src" if (ROOT / "src") in path.parents else ROOT).as_posix()
 
 
@@ -149,7 +148,8 @@ class TheTree(unittest.TestCase):
         self.assertIn("model", self.declared())
 
     def test_readers_agree_on_renamed_counters(self):
-        """The plan reader, the run page and the report each map the old names of counters to the present ones."""
+        """Checks that the plan reader, the run page and the report map the old names of counters to the same current
+        names."""
         def pairs(file, pattern, begin, end):
             text = (ROOT / file).read_text(encoding="utf-8").split(begin, 1)[1].split(end, 1)[0]
             return dict(re.findall(pattern, text))
@@ -249,7 +249,7 @@ class TheTree(unittest.TestCase):
 
 
 class TheChecks(unittest.TestCase):
-    """Tests of the checks."""
+    """Tests the checks themselves."""
 
     def test_includes_are_found(self):
         self.assertEqual(includes('#include "io/x.h"\n#include <vector>\n#include "tests/y.h"\n'), {"io/x.h"})

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests what tests/summary.py prints for results of CTest.   summary_test.py SOURCES"""
+"""Tests the output of tests/summary.py for given CTest results.   summary_test.py SOURCES"""
 import subprocess
 import sys
 import tempfile

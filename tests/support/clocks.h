@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Simulated clocks, so that unit tests do not depend on the time of the machine.
+// Simulated clocks: tests that use them do not depend on the machine's clock.
 #pragma once
 
 #include <atomic>
@@ -10,13 +10,13 @@
 
 namespace grove::detail::testing {
 
-// A deadline that has passed.
+// A deadline in the past.
 inline constexpr Limits::Clock::time_point kPast{};
 
-// A clock for Limits that advances only when the test advances it. Thread-safe.
+// A clock for Limits that advances only when the test calls it to. Thread-safe.
 class ManualClock {
  public:
-  // This object must outlive the last use of `limits`.
+  // Installs this clock in `limits`. This object must outlive the last use of `limits`.
   explicit ManualClock(Limits& limits) {
     limits.set_clock([this] { return Limits::Clock::time_point(time_.load()); });
   }
@@ -26,15 +26,15 @@ class ManualClock {
   std::atomic<Limits::Clock::duration> time_{std::chrono::hours(1)};
 };
 
-// Limits whose deadline passes after `looks` readings of their clock. Each reading advances the
-// clock by one millisecond, so a single-threaded run stops at the same point on every machine.
+// Limits whose deadline passes after `looks` readings of the clock. Each reading advances the clock
+// by one millisecond, so that a single-threaded run stops at the same point on every machine.
 class ClockReadingLimit : public Limits {
  public:
   explicit ClockReadingLimit(std::int64_t looks) {
     set_clock([this] { return at(++looks_); });
     set_deadline(at(looks + 1));
   }
-  // Number of readings so far.
+  // Number of clock readings so far.
   std::int64_t looks() const { return looks_; }
 
  private:
@@ -45,10 +45,10 @@ class ClockReadingLimit : public Limits {
   mutable std::atomic<std::int64_t> looks_{0};
 };
 
-// Number of looks that no run reaches: ClockReadingLimit then only counts readings.
+// A number of looks that no run reaches; with it ClockReadingLimit only counts readings.
 inline constexpr std::int64_t kUnlimitedLooks = std::int64_t{1} << 40;
 
-// Limits that end a run only if it hangs.
+// Limits that stop a run only if it hangs (after 5 minutes).
 class HangLimit : public Limits {
  public:
   HangLimit() { set_deadline(Clock::now() + std::chrono::minutes(5)); }

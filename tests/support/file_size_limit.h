@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Simulates a full disk by a limit on the size of files.
+// Simulates a full disk by limiting the size of files.
 #pragma once
 
 #include <signal.h>
@@ -7,7 +7,8 @@
 
 namespace grove::detail {
 
-// During its lifetime no file can grow beyond `bytes` bytes, and SIGXFSZ is ignored.
+// During its lifetime no file of this process can grow beyond `bytes` bytes, and SIGXFSZ is
+// ignored.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_(::signal(SIGXFSZ, SIG_IGN)) {

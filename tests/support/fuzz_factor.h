@@ -11,8 +11,8 @@
 
 namespace grove::detail::testing {
 
-// `rounds` times GROVE_FUZZ_FACTOR (1 if unset). Throws std::invalid_argument if the variable is
-// not an int of at least 1.
+// Returns `rounds` times GROVE_FUZZ_FACTOR (1 if unset). Throws std::invalid_argument if the
+// variable is not an integer of at least 1.
 inline int fuzz_rounds(int rounds) {
   const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
   if (factor == nullptr) return rounds;

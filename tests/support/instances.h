@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small instances from maps that are written as text.
+// Small instances on maps given as text.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace grove::detail::testing {
 
-// A grid from rows of '.' and '@'.
+// Returns the grid with these rows of '.' (passable) and '@' (blocked).
 inline Grid grid_of(const std::vector<std::string>& rows) {
   std::vector<bool> passable;
   for (const std::string& row : rows)
@@ -24,7 +24,8 @@ struct AgentSpec {
   std::vector<Position> tasks = {};
 };
 
-// Agents a0, a1, ... on a grid; agents that name the same task cell share the task.
+// Returns an instance with agents a0, a1, ... on a grid. Agents that name the same task cell share
+// one task.
 inline Instance instance_of(const std::vector<std::string>& rows,
                             const std::vector<AgentSpec>& agents) {
   const Grid grid = grid_of(rows);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Real Moving AI maps and scenarios, which are not part of this project. A test that uses them
-// begins with: if (!has_movingai()) GTEST_SKIP() << movingai_missing();
+// Moving AI benchmark maps and scenarios, which are not part of this project. A test that uses them
+// starts with: if (!has_movingai()) GTEST_SKIP() << movingai_missing();
 #pragma once
 
 #include <cstdlib>
@@ -9,7 +9,8 @@
 
 namespace grove::detail {
 
-// The directory in the environment variable GROVE_MOVINGAI, or else the one beside the project.
+// The directory that the environment variable GROVE_MOVINGAI names, or the default of the build if
+// it is unset.
 inline std::filesystem::path movingai_directory() {
   const char* named = std::getenv("GROVE_MOVINGAI");
   return named ? named : GROVE_MOVINGAI_DEFAULT;

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""Provides the test case of programs that run under mpirun."""
+"""Provides a base class for test cases that run programs under mpirun."""
 import functools
 import unittest
 
-# Open MPI 4 sometimes prints this for a job whose ranks all succeeded (open-mpi/ompi, issue 7833), and
-# always when a rank ends without MPI_Finalize.
+# Open MPI 4 sometimes prints this text for a job whose ranks all succeeded (open-mpi/ompi, issue 7833). It always
+# prints it when a rank ends without MPI_Finalize.
 LOST_BY_MPIRUN = "mpirun has exited due to process rank"
 
 
 class MpiTest(unittest.TestCase):
-    """Test case whose tests run a second time if they failed because mpirun reported a lost rank."""
+    """Reruns a test once if it failed because mpirun reported a lost rank."""
 
     def __init_subclass__(cls, **more):
         super().__init_subclass__(**more)

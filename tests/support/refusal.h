@@ -8,8 +8,8 @@
 
 namespace grove::detail {
 
-// The text of the InputError that `act` throws, without the directory of its file; "accepted" if it
-// throws none.
+// Calls `act` and returns the message of the InputError that it throws, without the directory of
+// its file. Returns "accepted" if it throws none.
 inline std::string refusal(const std::function<void()>& act) {
   try {
     act();

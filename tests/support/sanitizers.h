@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// GROVE_SANITIZERS_MEMORY is defined if AddressSanitizer or ThreadSanitizer is on. Their own memory
-// would exceed the memory limits of tests.
+// Defines GROVE_SANITIZERS_MEMORY if AddressSanitizer or ThreadSanitizer is on. Their own memory
+// use would exceed the memory limits set by tests.
 #pragma once
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

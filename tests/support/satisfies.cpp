@@ -16,7 +16,7 @@ bool is_inner(const World& grid, Cell cell) {
 }
 
 bool keeps_off(const Path& path, const Constraint& bar) {
-  // After its end the path no longer changes, so one step of rest represents all.
+  // Beyond its end the path does not change, so one step of rest represents all later ones.
   const Time last = std::max(static_cast<Time>(path.size()), bar.begin);
   for (Time t = std::max(bar.begin, 0); t <= std::min(bar.end, last); ++t) {
     if (at(path, t) != bar.cell) continue;
@@ -25,15 +25,16 @@ bool keeps_off(const Path& path, const Constraint& bar) {
   return true;
 }
 
-// The time of the last move, onto the cell where the agent rests.
+// Returns the time of the last move, by which the agent reaches the cell where it rests; 0 if it
+// never moves.
 Time last_arrival(const Path& path) {
   auto t = static_cast<Time>(path.size()) - 1;
   while (t > 0 && path[t - 1] == path[t]) --t;
   return t;
 }
 
-// The entrance by which the agent entered the corridor that it is in at time t; none if it has been
-// inside since time 0.
+// Returns the entrance by which the agent entered the corridor in which it is at time t, or no
+// entrance if it has been inside since time 0.
 Mouth entered_by(const World& grid, const Path& path, Time t) {
   while (t >= 0 && is_inner(grid, path[t])) --t;
   return t < 0 ? Mouth{} : Mouth{path[t], path[t + 1]};
@@ -57,7 +58,7 @@ bool is_mouth(const World& grid, Cell end, Cell inner) {
 }
 
 bool satisfies(const World& grid, const Path& walked, const Constraint& c) {
-  Path path;  // as places, because constraints refer only to places
+  Path path;  // as places, because constraints refer to places only
   for (const State state : walked) path.push_back(grid.place(state));
   const Time rest = last_arrival(path);
   switch (c.kind) {
@@ -71,7 +72,7 @@ bool satisfies(const World& grid, const Path& walked, const Constraint& c) {
       return !traverses(grid, path, c);
     case ConstraintKind::kStopIs:
     case ConstraintKind::kStopIsNot:
-      break;  // cannot be decided from the path only
+      break;  // cannot be decided from the path alone
   }
   throw std::invalid_argument("a constraint on the sequence is not about the path");
 }

@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kCannotStart = 127;
 
-// A file in memory that the child reads or writes. Unlike a pipe it is never full.
+// A file in memory that the child reads or writes. Unlike a pipe, it never blocks the writer.
 class MemoryFile {
  public:
   explicit MemoryFile(const std::string& text = "") : fd_(::memfd_create("file", MFD_CLOEXEC)) {
@@ -40,7 +40,7 @@ class MemoryFile {
   int fd_;
 };
 
-// Executes the program in the child process. Only async-signal-safe calls.
+// Executes the program in the forked child. Makes only async-signal-safe calls.
 [[noreturn]] void exec_program(char* const* arguments, const ProcessOptions& options, int in,
                                int out, int err) {
   const rlimit limit{options.largest_file, options.largest_file};
@@ -65,7 +65,8 @@ pid_t start(const std::vector<std::string>& command, const ProcessOptions& optio
   return child;
 }
 
-// Waits for the child and sends it the signal that `options` specifies. Returns the wait status.
+// Waits for the child, sends it the signal that `options` specifies, and kills it at the timeout.
+// Returns the wait status.
 int wait_for(pid_t child, const ProcessOptions& options, bool& timed_out) {
   const Clock::time_point begin = Clock::now();
   bool signalled = options.signal == 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Temporary directory of one test.
+// Temporary directory for one test.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,8 @@
 
 namespace grove::detail {
 
-// Created by the constructor, and removed with all its files by the destructor.
+// A directory that exists during the lifetime of this object; the destructor removes it with all
+// its files.
 class TemporaryDirectory {
  public:
   TemporaryDirectory();
@@ -29,7 +30,7 @@ class TemporaryDirectory {
   std::filesystem::path path_;
 };
 
-// The bytes of a file. Throws std::runtime_error if the file does not exist.
+// Returns the bytes of a file. Throws std::runtime_error if the file does not exist.
 std::string file_content(const std::filesystem::path& path);
 
 }  // namespace grove::detail

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""Waits in tests of programs: for an event, never for a fixed time."""
+"""Waits for events in tests of programs, and never for a fixed time."""
 import time
 from pathlib import Path
 
-HANG_S = 300  # ends a test that hangs; no event takes as long, even on a busy machine
+HANG_S = 300  # time limit of a wait, to end a test that hangs; no event takes as long, even on a busy machine
 LOOK_S = 0.02
 
 
 def wait_until(what, condition, process=None):
-    """Returns the result of condition() as soon as it is true. Fails if `process` ends before, or after HANG_S
+    """Waits until condition() is true and returns its result. Fails if `process` ends first, or after HANG_S
     seconds."""
     end = time.monotonic() + HANG_S
     while not (found := condition()):
@@ -23,7 +23,7 @@ def wait_until(what, condition, process=None):
 
 
 def text_of(path):
-    """Returns the content of a file as far as it is written; empty if it does not exist yet."""
+    """Returns the text written to a file so far; empty if the file does not exist yet."""
     try:
         return Path(path).read_text(encoding="utf-8")
     except FileNotFoundError:
@@ -31,7 +31,7 @@ def text_of(path):
 
 
 def state_of(pid):
-    """Returns the state letter of a process: R, S, T (stopped), Z and others. Returns None if it has ended."""
+    """Returns the state letter of a process (R, S, T for stopped, Z and others), or None if the process is gone."""
     try:
         return Path(f"/proc/{pid}/stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()[0]
     except OSError:
@@ -40,7 +40,7 @@ def state_of(pid):
 
 def progress_of(pid):
     """Returns a number that grows while a process runs: the voluntary context switches of its first thread plus its
-    processor time in hundredths of a second."""
+    processor time in clock ticks."""
     status, stat = text_of(f"/proc/{pid}/status"), text_of(f"/proc/{pid}/stat")
     if not stat:
         raise AssertionError(f"process {pid} is gone")

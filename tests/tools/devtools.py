@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Drives a headless Chromium: opens pages, sends input, evaluates scripts and takes screenshots.
+"""Controls a headless Chromium: opens pages, sends input, evaluates scripts and takes screenshots.
 
-Uses the DevTools protocol over a pair of pipes: JSON messages, each ended by a zero byte.
+Uses the DevTools protocol over a pair of pipes. Messages are JSON and end with a zero byte.
 """
 
 import base64
@@ -26,12 +26,12 @@ CHROMIUM = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chro
 
 class Visit(NamedTuple):
     console: list     # console messages, exceptions and log entries
-    requests: list    # URLs of network requests, sent or blocked
+    requests: list    # URLs of network requests, including blocked ones
     picture: object   # screenshot as an RGB image
 
 
 def shares(picture):
-    """Returns {colour: share of the pixels of that colour}."""
+    """Returns {colour: share of the pixels with that colour}."""
     return {colour: count / (picture.width * picture.height)
             for count, colour in picture.getcolors(1 << 24)}
 
@@ -40,7 +40,7 @@ def is_blank(picture):
     return max(shares(picture).values()) > 0.999
 
 
-# Resolves after the next frame; a page requests its own frames before this one.
+# Resolves after the next frame. Frames that the page requested earlier come first.
 PAINTED = "new Promise((done) => requestAnimationFrame(() => setTimeout(done)))"
 
 
@@ -49,13 +49,13 @@ class NoAnswer(AssertionError):
 
 
 class Chromium:
-    """Runs a browser with one page. Use as a context manager."""
+    """Controls a browser with one page. Use as a context manager."""
 
     def __init__(self, *options):
         self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         to_it, to_us = os.pipe(), os.pipe()
 
-        def connect():  # Chromium reads from 3 and writes to 4
+        def connect():  # Chromium reads from descriptor 3 and writes to 4
             os.dup2(os.dup(to_it[0]), 3)
             os.dup2(os.dup(to_us[1]), 4)
 
@@ -63,7 +63,8 @@ class Chromium:
                    f"--user-data-dir={self.folder.name}", "--host-resolver-rules=MAP * ~NOTFOUND",
                    *(["--no-sandbox"] if os.getuid() == 0 else []), *(options or ["--disable-gpu"]), "about:blank"]
         # close_fds=False keeps descriptors 3 and 4, which connect() sets.
-        # A new session: killing its process group also ends the children of the browser, which keep our output open.
+        # A new session, so that killing its process group also ends the child processes of the browser, which keep our
+        # output open.
         self.process = subprocess.Popen(command, preexec_fn=connect, close_fds=False, start_new_session=True,
                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(to_it[0])
@@ -89,7 +90,7 @@ class Chromium:
         self.folder.cleanup()
 
     def message(self, seconds=HANG_S):
-        """Returns the next message of the browser, or None if none arrives within `seconds` seconds."""
+        """Returns the next message from the browser, or None if none arrives within `seconds` seconds."""
         end = time.monotonic() + seconds
         while b"\0" not in self.buffer:
             if not select.select([self.read], [], [], max(0, end - time.monotonic()))[0]:
@@ -134,8 +135,8 @@ class Chromium:
             return found["result"]
 
     def open(self, page, fragment="", size=(1280, 800)):
-        """Opens a file, waits until it is loaded and returns the seconds that this took."""
-        self.call("Page.navigate", url="about:blank")  # because a change of the fragment alone does not reload a page
+        """Opens a file, waits until it is loaded and returns the time that this took in seconds."""
+        self.call("Page.navigate", url="about:blank")  # a change of the fragment alone does not reload a page
         self.console.clear()
         self.requests.clear()
         self.resize(*size)
@@ -172,7 +173,7 @@ class Chromium:
         return found["result"].get("value")
 
     def wait_until(self, what, condition):
-        """Waits until condition() holds and processes messages of the page in the meantime."""
+        """Processes messages from the page until condition() holds. Fails after HANG_S seconds."""
         end = time.monotonic() + HANG_S
         while not condition():
             if time.monotonic() > end:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests the command line of grove-sim: its tables and the inputs that it refuses.
+"""Tests the command line of grove-sim: its tables and the input that it refuses.
 
     grove_sim_test.py GROVE_SIM
 """

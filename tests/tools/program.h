@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the program grove in tests.
+// Runs the program grove for tests.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@ inline ProcessResult run_grove(std::vector<std::string> arguments,
   return run_program(arguments, options);
 }
 
-// Returns the line that a run with bad input or usage prints on stderr, without "grove: error: ".
-// If the run did not end this way, returns a description of the difference.
+// Returns the single line that a run with bad input or usage prints on stderr, without "grove:
+// error: ". If the run did not end in this way, returns a description of the difference.
 inline std::string complaint(const ProcessResult& result) {
   const std::string start = "grove: error: ";
   if (result.exit_code != 2)

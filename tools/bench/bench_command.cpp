@@ -84,7 +84,7 @@ struct BenchArguments {
   std::string output_dir;
   RunDefaults defaults;
   double memory_limit_gb = 0;
-  std::int64_t jobs = 0;  // 0: as many as fit
+  std::int64_t jobs = 0;  // 0: usable cores divided by threads per run
   bool keep_plans = false;
   bool certify = false;
   bool confined = false;
@@ -97,8 +97,8 @@ int jobs_of(const BenchArguments& a, const std::vector<bench::Method>& methods) 
   return static_cast<int>(std::max<std::int64_t>(1, usable_cores() / threads));
 }
 
-// Runs without a memory limit get an equal part of the machine's memory. It is not recorded as
-// their limit, because results normally do not depend on it.
+// Gives each run without a memory limit an equal share of the machine's memory. The share is not
+// recorded as a limit in the table, because results normally do not depend on it.
 void share_memory(std::vector<bench::Method>& methods, int jobs) {
   const double share =
       std::max(kMinMemory_gb, std::floor(10 * kMemoryShare * usable_memory_gb() / jobs) / 10);
@@ -136,7 +136,7 @@ void require_distinct_names(const std::vector<bench::Method>& methods) {
           fmt::format("found a second '{}'; expected distinct names", method.settings.method));
 }
 
-// Each method with each seed.
+// Returns every combination of a method and a seed.
 std::vector<bench::Method> with_seeds(const std::vector<bench::Method>& methods,
                                       const std::vector<std::int64_t>& seeds) {
   std::vector<bench::Method> all;

@@ -10,8 +10,8 @@
 namespace grove::detail::bench {
 namespace {
 
-// The properties on which it depends whether a method accepts an instance (require_fit() of
-// engine/method.h).
+// Returns the properties of the instance that determine whether a method accepts it; see
+// require_fit() in engine/method.h.
 std::string kind_of(const batch::InstanceMetadata& facts, const Instance& instance) {
   const bool idles = std::ranges::any_of(instance.agents(), &Agent::is_idle);
   const bool shares_cells = std::ranges::any_of(instance.agents(), [](const Agent& agent) {

@@ -21,7 +21,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr const char* kInstance = "INSTANCE";  // placeholder
+constexpr const char* kInstance = "INSTANCE";  // placeholder for the required argument
 
 Words words_of(const std::string& text) {
   std::istringstream stream(text);
@@ -37,7 +37,8 @@ struct NameAndOptions {
   Words words;
 };
 
-// The name becomes part of file names and tables.
+// Splits "NAME: OPTIONS" at the first colon. Restricts the characters of NAME, because it becomes
+// part of file names and tables.
 NameAndOptions split(const std::string& text) {
   const std::size_t colon = text.find(':');
   const Words name = words_of(text.substr(0, colon));
@@ -54,7 +55,7 @@ NameAndOptions split(const std::string& text) {
   return {name[0], words_of(text.substr(colon + 1))};
 }
 
-// The options of grove solve that name input and output files.
+// Returns the names of the options of `grove solve` that name input and output files.
 std::set<std::string> file_options() {
   CLI::App app;
   SolveArguments unused;
@@ -73,7 +74,7 @@ void refuse_file_options(const CLI::App& app, const std::string& text) {
       refuse_method(text, name + " is not allowed here; the benchmark chooses the files of a run");
 }
 
-// Returns the options of the user as command-line words, without the time limit.
+// Returns the options that the user gave for the run as command-line words, without --time-limit.
 Words given_arguments(const CLI::App& app) {
   Words words;
   for (const CLI::Option* option : app.get_options()) {

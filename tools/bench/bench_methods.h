@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Methods of a benchmark: parses the values of --run.
+// Parses the values of --run, which define the Grove methods of a benchmark.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,21 @@
 
 namespace grove::detail {
 
-// Defaults for runs whose options do not set these values.
+// Values for runs that do not set them by their own options.
 struct RunDefaults {
   double time_limit_s = *kDefaults.time_limit;
-  std::optional<double> memory_limit_gb = {};  // nullopt: a share of the machine's memory
+  std::optional<double> memory_limit_gb = {};  // nullopt: an equal share of the machine's memory
   std::int64_t seed = 0;
 };
 
-// Parses "NAME: OPTIONS OF grove solve" with the option parser of `grove solve`, so that a mistake
-// is found before any run starts. "NAME" without a colon is short for "NAME: --method NAME".
-// Options that name files are refused, because the benchmark sets them. Throws
+// Parses "NAME: OPTIONS", where OPTIONS are options of `grove solve`, with that command's parser,
+// so that errors are reported before any run starts. "NAME" without a colon is short for
+// "NAME: --method NAME". Refuses options that name files, because the benchmark sets them. Throws
 // CLI::ValidationError, which names the run.
 bench::Method read_run(const std::string& text, const RunDefaults& defaults);
 
-// The same for several runs, whose names must be distinct.
+// Parses several runs as read_run() does. Also throws CLI::ValidationError if two have the same
+// name.
 std::vector<bench::Method> read_runs(const std::vector<std::string>& texts,
                                      const RunDefaults& defaults);
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A worker thread runs one child process after another, evaluates the outcome and writes its row.
-// There are as many workers as children may run, so evaluation takes no core from them. One mutex
-// guards the table and the counts; it is not held while children run or plans are checked.
+// Each worker thread repeatedly runs a child process, evaluates its outcome and writes a row. At
+// most one child per worker exists, and a worker evaluates only while its child is not running, so
+// evaluation takes no core from the runs. A mutex guards the table and the counts. No thread holds
+// it while children run or plans are checked.
 //
-// A row is written only after the run has ended and was evaluated, and after its plan, if kept, is
-// in place. So if this process ends, for whatever reason, there is no row of a run in progress; its
-// children are killed with it.
+// A worker writes a row only after the run has ended, its outcome is evaluated and its plan, if
+// kept, is in place. Therefore no run in progress has a row if this process ends for any reason.
+// Its children are killed with it.
 #include "tools/bench/bench_run.h"
 
 #include <fmt/format.h>
@@ -33,8 +34,10 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kCsvInterval_s = 30;  // each time the whole file is written
-// A flush takes longer than a short run. Rows lost in a crash of the machine are run again.
+// Minimum intervals between writes of the CSV file, which is rewritten as a whole, and between
+// flushes of the table, which take longer than a short run. If the machine crashes, rows since the
+// last flush are lost and their runs are repeated.
+constexpr double kCsvInterval_s = 30;
 constexpr double kFlushInterval_s = 1;
 constexpr auto kWatchInterval = std::chrono::milliseconds(100);
 constexpr double kMaxCheckTime_s = 3600;
@@ -135,12 +138,12 @@ class Bench {
 
   bool must_stop() const { return failed_ || options_.stopped(); }
 
-  // Files of a run, per worker.
+  // Scratch files of a run. Each worker has its own set.
   struct Files {
     fs::path plan;
     fs::path output_file;
     fs::path log;
-    fs::path folder;  // of an external solver
+    fs::path folder;  // for the files of an external solver
     fs::path proof;
     fs::path instance;  // for the certificate checker if the entry is a scenario
   };
@@ -168,7 +171,7 @@ class Bench {
     } catch (const InputError& error) {
       row.outcome = {.error = error.what()};
     }
-    if (row.outcome.interrupted() && must_stop()) return;  // the signal went to all processes
+    if (row.outcome.interrupted() && must_stop()) return;  // the signal also reached the child
     row.ended_at = batch::machine_clock().utc();
     if (row.outcome.version.empty()) row.outcome.version = options_.version;
     record(row);
@@ -186,8 +189,8 @@ class Bench {
     return end;
   }
 
-  // Returns false if the run was cancelled. Reads the instance again after the run, so that the
-  // check depends only on the files.
+  // Runs Grove and sets the outcome. Returns false if the run was cancelled. Reads the instance
+  // again after the run, so that the check depends only on the files.
   bool solve(batch::Row& row, std::size_t run, const Files& files) {
     const std::size_t index = instance_index(run);
     const double limit = row.run.settings.time_limit_s;
@@ -214,7 +217,7 @@ class Bench {
     return true;
   }
 
-  // Returns false if the check was cancelled.
+  // Runs grove-verify on the certificate of the run. Returns false if the check was cancelled.
   bool certify(batch::Outcome& outcome, std::size_t index, const LoadedInstance& loaded,
                const Files& files) const {
     const batch::Entry& entry = instances_[index].entry;
@@ -271,7 +274,7 @@ class Bench {
     fs::rename(file, kept);
   }
 
-  // For external solvers: keeps a valid plan as a plan file of Grove, and an invalid one unchanged.
+  // Keeps a valid plan of an external solver as a Grove plan file, and an invalid plan unchanged.
   void keep(const ExternalRun& external, const Instance& instance, const Files& files,
             batch::Row& row) const {
     if (external.valid_plan()) {
@@ -317,7 +320,7 @@ class Bench {
   const Clock::time_point start_ = Clock::now();
   batch::ResultTable table_;
   const std::vector<batch::Run> runs_;
-  const std::vector<std::size_t> todo_;  // of runs_
+  const std::vector<std::size_t> todo_;  // positions in runs_
   RootCosts root_costs_;
 
   std::mutex mutex_;  // guards table_ and all members below, except for the atomics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs methods on instances: schedules the runs and stores their results.
+// Benchmark: runs methods on instances as child processes and stores the results.
 #pragma once
 
 #include <cstddef>
@@ -18,44 +18,45 @@
 namespace grove::detail::bench {
 
 struct Method {
-  batch::Settings settings;  // the method's name is unique and names files
+  batch::Settings settings;  // the method name is unique for each seed and is part of file names
   std::int64_t threads = 1;
-  // Arguments after `grove solve INSTANCE`, except for the time limit and the plan file.
+  // For Grove: arguments after `grove solve INSTANCE`, without those that solve_command() adds.
   std::vector<std::string> arguments = {};
-  // External solvers: limit of the data segment (RLIMIT_DATA), GB; nullopt: no limit.
+  // For an external solver: limit of the data segment (RLIMIT_DATA) in GB; nullopt: no limit.
   std::optional<double> memory_gb = {};
-  // The external solver; nullptr: Grove.
+  // nullptr: the method is a configuration of Grove.
   std::shared_ptr<const ExternalSolver> solver = {};
 };
 
 struct BenchOptions {
-  std::string program;  // path of grove
-  std::filesystem::path folder;
-  int jobs = 1;
+  std::string program;           // path of grove
+  std::filesystem::path folder;  // folder of the table and the kept plans
+  int jobs = 1;                  // number of concurrent runs
   bool keep_plans = false;
   std::string verify;       // path of grove-verify; "": without certificates
-  double root_cost_s = 10;  // time limit for the root cost of an instance
-  double root_cost_gb = 1;  // limit of the memory of this process while it computes one
-  double grace_s = 10;      // a run is killed at grace_factor * limit + grace_s; an
-                            // external solver that does not receive the limit: at the limit
+  double root_cost_s = 10;  // time limit for computing the root cost of an instance
+  double root_cost_gb = 1;  // memory limit of this process while it computes a root cost
+  // A run is killed at grace_factor * limit + grace_s seconds after its start. An external solver
+  // whose command line does not contain the time limit is killed at the limit.
+  double grace_s = 10;
   double grace_factor = 1.1;
-  std::string version;            // for rows of runs that do not report one
+  std::string version;            // for rows of runs that do not report a version
   std::string machine;            // description of the processor, for the rows
-  std::function<bool()> stopped;  // whether the user wants to stop; called by any thread
-  std::function<void(const BenchState&)> watch;  // called several times a second
+  std::function<bool()> stopped;  // true: the user wants to stop; all threads call it
+  std::function<void(const BenchState&)> watch;  // called several times a second; may be empty
 };
 
-// Returns the command line of one run.
+// Returns the command line of one run of Grove.
 std::vector<std::string> solve_command(const std::string& program, const batch::Entry& entry,
                                        const Method& method, double time_limit_s,
                                        const std::filesystem::path& plan);
 
-// Runs all methods on all instances, and resumes an earlier benchmark in the same folder. All
-// methods run on one instance before the next one starts; `jobs` runs at a time, each a process of
-// its own. Every plan is re-checked. Ends when all runs are done, or soon after options.stopped()
-// returns true; runs in progress are then killed and get no row. Returns the state at the end.
-// Throws InputError if the folder cannot be used or holds rows of other runs, and
-// std::system_error.
+// Runs all methods on all instances, except for runs that already have a valid row in
+// options.folder. Runs are started instance by instance, each as a process of its own, at most
+// options.jobs at a time. Every plan is re-checked. Returns the final state when all runs are done,
+// or soon after options.stopped() returned true; runs in progress are then killed and get no row.
+// Throws InputError if the folder cannot be used or has rows with different settings, and
+// std::system_error if a process cannot be created.
 BenchState run_bench(const std::vector<BenchInstance>& instances,
                      const std::vector<Method>& methods, const BenchOptions& options);
 

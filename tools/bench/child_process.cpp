@@ -26,7 +26,8 @@ constexpr int kPollInterval_ms = 100;
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-// Runs between fork() and exec(), so it calls only async-signal-safe functions.
+// Sets up the child and executes the program. Runs between fork() and exec(), therefore calls only
+// async-signal-safe functions.
 [[noreturn]] void exec_child(char* const* arguments, pid_t parent, int input, int output,
                              const rlimit* memory) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -50,7 +51,8 @@ ChildEnd ended(pid_t pid) {
   return end;
 }
 
-// Kills a child that was not waited for yet, and its process group, which may not exist yet.
+// Kills a child and its process group, which the child may not have created yet. Call it before the
+// child is reaped.
 void kill_all(pid_t pid) {
   ::kill(-pid, SIGKILL);
   ::kill(pid, SIGKILL);
@@ -92,7 +94,7 @@ ChildEnd run_child(const std::vector<std::string>& command,
     errno = error;
     fail("pidfd_open");
   }
-  auto killed = ChildEnd::Kind::kExited;  // kExited: not killed
+  auto killed = ChildEnd::Kind::kExited;  // reason for which this function killed; kExited: none
   for (;;) {
     pollfd wait{process.get(), POLLIN, 0};
     if (::poll(&wait, 1, kPollInterval_ms) > 0) break;

@@ -28,14 +28,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// How much later than its time limit an anytime solver may end: the maximum of kGrace_s seconds and
-// kGrace times the limit.
+// An anytime solver can end after its time limit by at most max(kGrace_s seconds, kGrace * limit)
+// and still count as solved.
 constexpr double kGrace_s = 1;
 constexpr double kGrace = 0.1;
 constexpr std::array<std::string_view, 3> kTimeLimits{"time_limit", "time_limit_ms",
                                                       "time_limit_whole"};
 
-// Returns "" if there is no such file.
+// Returns the content of a file; "" if it does not exist.
 std::string text_of(const fs::path& path) {
   std::error_code error;
   return fs::is_regular_file(path, error) ? read_text(path) : std::string();
@@ -54,7 +54,7 @@ std::optional<Cost> cost_in(std::optional<double> number) {
   return static_cast<Cost>(std::llround(*number));
 }
 
-// Returns the point of a trace in this line; nullopt without a time or a cost.
+// Returns the trace point that `match` describes. Returns nullopt if it has no valid time or cost.
 std::optional<batch::TracePoint> point_in(const TracePattern& pattern, const std::smatch& match,
                                           double time_limit_s) {
   batch::TracePoint point;
@@ -82,7 +82,8 @@ std::optional<batch::TracePoint> point_in(const TracePattern& pattern, const std
   return point.seconds >= 0 ? std::optional(point) : std::nullopt;
 }
 
-// Sorts by time and keeps only points that improve the cost.
+// Sorts the trace by time, keeps only points that improve the cost, and thins them out to
+// kMaxTracePoints.
 std::vector<batch::TracePoint> improving_points(std::vector<batch::TracePoint> trace) {
   std::ranges::stable_sort(trace, {}, &batch::TracePoint::seconds);
   std::vector<batch::TracePoint> better;
@@ -92,14 +93,15 @@ std::vector<batch::TracePoint> improving_points(std::vector<batch::TracePoint> t
   return better;
 }
 
-// Replaces names that the solver's format cannot express, or that the solver may lose, by defaults.
+// Replaces agent and task ids that the solver's format cannot express, or that its plan may not
+// report, by default ids.
 Instance instance_for_solver(const Instance& instance, SolverInput input) {
   if (input == SolverInput::kGrove) return instance;
   Instance renamed = with_default_agent_ids(instance);
   return input == SolverInput::kMgcbs ? with_default_task_ids(renamed) : renamed;
 }
 
-// Converts a valid plan to the names and task numbers of `instance`, which has the same agents.
+// Converts a valid plan to the ids and task numbers of `instance`, which has the same agents.
 Solution in_terms_of(const Instance& instance, Solution solution) {
   std::vector<Path> paths;
   for (AgentPlan& agent : solution.plan->agents) paths.push_back(std::move(agent.path));
@@ -107,7 +109,7 @@ Solution in_terms_of(const Instance& instance, Solution solution) {
   return solution;
 }
 
-// Returns "" if the run exited with 0 within its time limit.
+// Returns the reason why the run failed; "" if it exited with code 0 within its time limit.
 std::string failure_text(const ChildEnd& end, double time_limit_s, const fs::path& output_file) {
   if (end.wall_s > time_limit_s) return kTimeLimit;
   if (end.kind == ChildEnd::Kind::kSignalled)
@@ -117,9 +119,9 @@ std::string failure_text(const ChildEnd& end, double time_limit_s, const fs::pat
   return "";
 }
 
-// Corrects the claimed trace by the re-checked plan of cost `cost`. The last plan of an anytime
-// solver is its best, so no earlier plan cost less (some solvers report another cost); the trace
-// ends with that plan.
+// Corrects the claimed trace by the re-checked plan of cost `cost`. An anytime solver writes its
+// best plan last, so no earlier plan cost less; some solvers report a different measure of cost.
+// The trace ends with the re-checked plan at `wall_s`, unless an earlier point has the same cost.
 std::vector<batch::TracePoint> corrected_trace(std::vector<batch::TracePoint> trace, Cost cost,
                                                double wall_s) {
   std::erase_if(trace, [&](const batch::TracePoint& point) { return point.seconds > wall_s; });
@@ -161,8 +163,8 @@ void ExternalRun::write_input(const batch::Entry& entry) {
   }
 }
 
-// Does not pass the original files: solvers differ in which map letters are passable, and in the
-// use of further rows of a scenario.
+// Writes a map and a scenario instead of passing the original files, because solvers differ in the
+// map characters that they treat as passable and in their use of further scenario rows.
 void ExternalRun::write_moving_ai() {
   map_ = folder_ / "map.map";
   scenario_ = folder_ / "map.scen";
@@ -205,7 +207,8 @@ fs::path ExternalRun::plan() const {
   return solver_.adapter.plan.empty() ? fs::path() : fs::path(expand(solver_.adapter.plan));
 }
 
-// Group 1 of the last line in which the pattern is found; the whole match if it has none.
+// Returns group 1 of the match in the last matching line; the whole match if the pattern has no
+// group. Returns nullopt if no line matches.
 std::optional<std::string> ExternalRun::last_match(const LinePattern& pattern,
                                                    const fs::path& output_file) const {
   const std::regex regex(pattern.regex);
@@ -270,7 +273,8 @@ void ExternalRun::read_plan(batch::Outcome& outcome, const ChildEnd& end) {
     const bool same = solver_.adapter.input == SolverInput::kGrove;
     valid_plan_ = same ? recounted.solution : in_terms_of(loaded_.instance, recounted.solution);
   } catch (const InputError& broken) {
-    if (end.kind != ChildEnd::Kind::kExited || end.code != 0) return;  // maybe killed while writing
+    // The solver may have been killed while it wrote the file.
+    if (end.kind != ChildEnd::Kind::kExited || end.code != 0) return;
     outcome.status = batch::kInvalidPlan;
     std::string text = broken.what();
     if (text.starts_with(folder_.string())) text.erase(0, folder_.string().size() + 1);
@@ -278,8 +282,9 @@ void ExternalRun::read_plan(batch::Outcome& outcome, const ChildEnd& end) {
   }
 }
 
-// An anytime solver that ran until its limit counts as solved if it had a plan in time. Only its
-// own claim says when it had the plan, so a run that ends much later than its limit does not count.
+// A run of an anytime solver that reached its limit counts as solved if the solver had a plan in
+// time. That time is only the solver's own claim, so a run that ends much later than the limit does
+// not count.
 void ExternalRun::finish_with_plan(batch::Outcome& outcome, const ChildEnd& end,
                                    const fs::path& output_file) const {
   const double limit = settings_.time_limit_s;

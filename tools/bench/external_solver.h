@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Runs of external solvers: their input files, command lines and output files. Nothing that a
-// solver reports is trusted: plans are re-checked and their costs recomputed; all other statements
-// are stored as claims.
+// Runs of external solvers: writes their input files, builds their command lines and reads their
+// output files. Plans are re-checked and their costs recomputed. Everything else that a solver
+// reports is stored as an unverified claim.
 #pragma once
 
 #include <filesystem>
@@ -19,27 +19,30 @@ namespace grove::detail::bench {
 
 struct ExternalSolver {
   SolverAdapter adapter;
-  std::string program;  // {program}
+  std::string program;  // path; value of the placeholder {program}
 };
 
 // One run of an external solver.
 class ExternalRun {
  public:
-  // Writes the input files of the solver into `folder`, which belongs to this run and is emptied
-  // first. Throws NotRepresentable if the solver's format cannot express this instance, and
-  // InputError if files cannot be written. `loaded` is the instance of `entry`; all arguments must
-  // outlive this object.
+  // Empties `folder`, which only this run uses, and writes the input files of the solver into it.
+  // `loaded` is the instance of `entry`. `solver`, `loaded` and `settings` must outlive this
+  // object. Throws NotRepresentable if the solver's format cannot express the instance, and
+  // InputError if a file cannot be written.
   ExternalRun(const ExternalSolver& solver, const batch::Entry& entry, const LoadedInstance& loaded,
               const batch::Settings& settings, std::filesystem::path folder);
 
+  // Returns the command line.
   std::vector<std::string> command() const;
-  // Whether the command line contains the time limit, so that the solver may end by itself then.
+  // Returns whether the command line contains the time limit, so that the solver can end by itself
+  // at the limit.
   bool receives_time_limit() const;
-  // Returns the outcome of a run that ended and was not cancelled. `output_file`: its output.
+  // Returns the outcome of a run that has ended and was not cancelled. `output_file` has its
+  // standard output and standard error.
   batch::Outcome outcome_of_run(const ChildEnd& end, const std::filesystem::path& output_file);
-  // The plan that it wrote, if it passed the check.
+  // The solver's plan if outcome_of_run() has found it valid; otherwise nullopt.
   const std::optional<Solution>& valid_plan() const { return valid_plan_; }
-  // The file for the plan, which may not exist.
+  // Returns the path of the solver's plan file, which may not exist; "" if the solver writes none.
   std::filesystem::path plan() const;
 
  private:
@@ -72,21 +75,22 @@ class ExternalRun {
 
 struct NamedSolver {
   std::string name;
-  std::string options;  // for the table: without paths of programs
+  std::string options;  // for the table; does not contain the path of the program
   ExternalSolver solver;
 };
 
-// Parses the values "NAME=COMMAND" of --solver:
-//   eecbs=/opt/eecbs --suboptimality 1.1       the adapter NAME, its program, further options
-//   fast=eecbs:/opt/eecbs --suboptimality 2    an adapter under another name
-//   mine=my.json:/opt/mine                     an adapter of the user
-//   mine=/opt/mine {instance} {output}         a command with placeholders
-// `claims` are "NAME=REGEX": where such a solver prints its cost. Throws CLI::ValidationError, and
-// InputError if the file of an adapter is wrong.
+// Parses the values "NAME=COMMAND" of --solver. COMMAND has one of these forms:
+//   eecbs=/opt/eecbs --suboptimality 1.1       program and further options for the adapter NAME
+//   fast=eecbs:/opt/eecbs --suboptimality 2    an adapter with a different name
+//   mine=my.json:/opt/mine                     an adapter file of the user
+//   mine=/opt/mine {instance} {output}         a command with placeholders, without adapter
+// Each of `claims` is "NAME=REGEX", where REGEX matches the line in which solver NAME prints the
+// cost that it claims. Throws CLI::ValidationError for bad values and InputError for a bad adapter
+// file.
 std::vector<NamedSolver> read_solver_arguments(const std::vector<std::string>& solvers,
                                                const std::vector<std::string>& claims);
 
-// Returns the names of the adapters that Grove ships.
+// Returns the names of the adapters that are shipped with Grove, in ascending order.
 std::vector<std::string> known_adapters();
 
 }  // namespace grove::detail::bench

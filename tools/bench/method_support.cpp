@@ -18,8 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDryRunLimit_s = 60;  // time limit of a dry run; it only reads the instance
+constexpr double kDryRunLimit_s = 60;  // until a dry run, which only reads the instance, is killed
 
+// A temporary folder, deleted by the destructor.
 class Scratch {
  public:
   Scratch() {
@@ -44,7 +45,7 @@ class Scratch {
 
 void check_method_support(const std::vector<BenchInstance>& instances,
                           const std::vector<Method>& methods, const BenchOptions& options) {
-  std::map<std::string, const BenchInstance*> first;  // of each kind
+  std::map<std::string, const BenchInstance*> first;  // first instance of each kind
   for (const BenchInstance& instance : instances)
     if (instance.error.empty()) first.emplace(instance.kind, &instance);
   const Scratch scratch;

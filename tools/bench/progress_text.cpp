@@ -17,7 +17,7 @@ std::string median_text(std::vector<double> values) {
   return fmt::format("{:.2f}", median);
 }
 
-// The first column is left-aligned, the others right-aligned.
+// Aligns the first column to the left and the other columns to the right.
 std::string table_text(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths(rows.front().size());
   for (const auto& row : rows)
@@ -92,7 +92,7 @@ std::string summary_table(const BenchState& state) {
   }
   std::string legend =
       "median s: over all runs; a run that is not solved counts as its time limit\n";
-  // Adds a column if a value is not 0.
+  // Adds a column unless its value is 0 for all methods.
   const auto add = [&](const char* title, const char* meaning, const auto& value) {
     const auto has_some = [&](const std::string& name) { return value(name) > 0; };
     if (std::ranges::none_of(state.methods, has_some)) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Root costs of instances (see sum_of_best_sequences()), computed once each.
+// Root costs of instances (see sum_of_best_sequences()), each computed at most once.
 #pragma once
 
 #include <cstddef>
@@ -12,15 +12,16 @@
 
 namespace grove::detail::bench {
 
-// Thread-safe. The first caller for an instance computes; others for the same one wait.
+// Thread-safe. The first caller for an instance computes its root cost; concurrent callers for the
+// same instance wait.
 class RootCosts {
  public:
-  // For `instances` instances. Each computation takes at most `seconds` and may let the process
-  // grow to `bytes`.
+  // `instances`: number of instances. Each computation stops after `seconds` seconds or when the
+  // process has `bytes` bytes of resident memory.
   RootCosts(std::size_t instances, double seconds, std::size_t bytes);
 
-  // Returns sum_of_best_sequences() of `instance`, which has number `index`. Returns nullopt if
-  // some agent has no path or a limit was reached.
+  // Returns sum_of_best_sequences() for `instance`, which is number `index`, from 0. Returns
+  // nullopt if some agent has no path or a limit was reached.
   std::optional<Cost> of(std::size_t index, const Instance& instance);
 
  private:

@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
   throw CLI::ValidationError(fmt::format("--solver '{}'", one_line(text)), why);
 }
 
-// The folder of shipped adapters: the installed one, else the one beside the program.
+// Returns the folder of the shipped adapters: the installed folder if it exists, otherwise the
+// folder beside the program.
 fs::path adapter_folder() {
   const fs::path own = fs::read_symlink("/proc/self/exe").parent_path();
   const fs::path installed = own.parent_path() / "share/grove/solvers";
@@ -61,7 +62,8 @@ SolverAdapter adapter_called(const std::string& name, const std::string& text) {
   return read_solver(file);
 }
 
-// Searches PATH as a shell does.
+// Returns the absolute path of a program. Searches PATH unless `program` contains a '/'. Refuses
+// the first file with that name if it is not executable.
 std::string path_of_program(const std::string& program, const std::string& text) {
   std::error_code error;
   const bool is_path = program.find('/') != std::string::npos;
@@ -94,8 +96,8 @@ ExternalSolver solver_of_command(const std::string& name, std::vector<std::strin
   return solver;
 }
 
-// Options of the user replace those of the adapter, because many programs refuse an option given
-// twice.
+// Removes `option` and its value from the adapter's command, so that the user's option replaces it;
+// many programs refuse an option given twice.
 void drop_option(std::vector<std::string>& command, const std::string& option) {
   if (!option.starts_with('-')) return;
   const auto it = std::ranges::find(command, option);
@@ -104,7 +106,7 @@ void drop_option(std::vector<std::string>& command, const std::string& option) {
   command.erase(it, it + (has_value ? 2 : 1));
 }
 
-// "eecbs=/opt/eecbs", or "NAME=ADAPTER:PROGRAM" with another adapter before the first colon.
+// Builds the solver for "NAME=PROGRAM", which uses the adapter NAME, or "NAME=ADAPTER:PROGRAM".
 ExternalSolver solver_of_adapter(const std::string& name, const std::vector<std::string>& words,
                                  const std::string& text) {
   const std::size_t colon = words[0].find(':');

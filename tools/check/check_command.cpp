@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove check INSTANCE PLAN.
+// grove check: verifies a plan for an instance.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The subcommands of grove. Each function adds one to `app`; the command runs as its callback while
-// the command line is parsed. Commands throw InputError for bad input, CLI::ParseError for bad
-// usage, and CommandFailed if they have printed the error themselves. Any other exception is an
-// internal failure. program.h turns exceptions into exit codes.
+// The subcommands of grove. Each add_*_command() registers its subcommand with `app`. CLI11 runs
+// the command in a callback while it parses the command line. A command throws InputError for bad
+// input, CLI::ParseError for bad usage, and CommandFailed if it has already reported the error. Any
+// other exception is an internal failure. run_program() turns exceptions into exit codes.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -13,9 +13,10 @@ namespace grove::detail {
 inline constexpr int kExitSuccess = 0;
 inline constexpr int kExitInternalFailure = 1;
 inline constexpr int kExitBadInput = 2;
-inline constexpr int kExitNoPlan = 3;         // although a plan was required
-inline constexpr int kExitInterrupted = 130;  // by Ctrl-C, as shells report it
+inline constexpr int kExitNoPlan = 3;         // no plan was found, with --require-plan
+inline constexpr int kExitInterrupted = 130;  // 128 + SIGINT, as shells report Ctrl-C
 
+// The command ends with this exit code and has already reported the reason.
 class CommandFailed : public std::exception {
  public:
   explicit CommandFailed(int exit_code) : exit_code_(exit_code) {}

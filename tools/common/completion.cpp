@@ -43,7 +43,7 @@ std::string bash_words(const CommandText& command) {
                      fmt::join(command_words(command), " "), fmt::join(option_names(command), " "));
 }
 
-// The values that may follow an option.
+// Returns the cases of the script that list the values of each option.
 std::string bash_values(const CommandText& command) {
   std::string text;
   for (const OptionText& option : command.options) {
@@ -97,7 +97,7 @@ complete -o bashdefault -o default -F {1} {0}
 
 // --- zsh ---
 
-// Escapes text for use within '...[...]'.
+// Escapes text for zsh within '...[...]'.
 std::string zsh_quoted(const std::string& text) {
   std::string made;
   for (const char c : text) {
@@ -180,7 +180,8 @@ std::string fish_quoted(const std::string& text) {
   return "'" + made + "'";
 }
 
-// The condition that the words so far are those of this command and of no subcommand.
+// Returns the fish option -n with the condition that the command line contains the words of this
+// command and of none of its subcommands; "" if there is no condition.
 std::string fish_condition(const CommandText& program, const CommandText& command) {
   std::string condition;
   for (const std::string& word : CLI::detail::split(command.name, ' '))

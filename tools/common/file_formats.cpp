@@ -15,7 +15,7 @@ namespace {
 
 template <typename Format>
 struct Entry {
-  std::string_view name;  // value of --from or --to, or a suffix
+  std::string_view name;  // a value of --from or --to, or a suffix of file names
   Format format;
 };
 template <typename Format>
@@ -26,7 +26,8 @@ constexpr std::array kInstanceNames = {
     Entry{"mgcbs", InstanceFormat::kMgcbs}, Entry{"mapfw", InstanceFormat::kMapfw},
     Entry{"scen", InstanceFormat::kScen},
 };
-// Longer suffixes first. Plain .json determines no format: Grove, MAPFW and many others use it.
+// Longer suffixes come first. The suffix .json implies no format, because Grove, MAPFW and many
+// other tools use it.
 constexpr std::array kInstanceSuffixes = {
     Entry{".mapfw.json", InstanceFormat::kMapfw}, Entry{".cts.json", InstanceFormat::kGrove},
     Entry{".yaml", InstanceFormat::kLibmrp},      Entry{".yml", InstanceFormat::kLibmrp},
@@ -68,7 +69,6 @@ Format find_format(const std::string& option, const std::string& name, const std
     if (file.ends_with(entry.name)) return entry.format;
   throw CLI::ValidationError(
       option,
-      // The program exists, so the missing file is its interpreter.
       fmt::format(
           "required, because the suffix of '{}' is not that of a format; expected one of {}", file,
           listed(names)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The file formats of grove convert, by the names of --from and --to.
+// File formats of `grove convert`: the values of --from and --to, and file name suffixes.
 #pragma once
 
 #include <cstdint>
@@ -19,20 +19,23 @@ enum class PlanFormat : std::uint8_t {
   kPlanViz,
 };
 
-// Returns the format called `name`; if `name` is empty, the format of the suffix of `file`. Throw
-// CLI::ValidationError, which names `option`, if there is none.
+// Return the format called `name` or, if `name` is empty, the format that the suffix of `file`
+// implies. Throw CLI::ValidationError, which names `option`, if there is none.
 InstanceFormat instance_format(const std::string& option, const std::string& name,
                                const std::string& file);
 PlanFormat plan_format(const std::string& option, const std::string& name, const std::string& file);
 
-// Whether instances of this format name a map file; other formats contain their map.
+// Returns whether an instance file of this format refers to a separate map file. In the other
+// formats the instance file contains the map.
 bool names_a_map(InstanceFormat format);
+// Returns whether this format can express tasks.
 bool holds_tasks(InstanceFormat format);
 
-// Whether the suffix of `file` is that of a format that only 'grove convert' reads.
+// Returns whether `file` has the suffix of an instance format that only `grove convert` reads.
 bool has_suffix_of_other_format(const std::string& file);
 
-// Returns `file` without the suffix of a format: "x" of "x.cts.json".
+// Returns `file` without the suffix of its instance format ("x.cts.json" -> "x"); without its
+// extension if the suffix is unknown.
 std::string without_suffix(const std::string& file);
 
 }  // namespace grove::detail

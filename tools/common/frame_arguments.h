@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Position and scale of a grid in world coordinates, from the command line.
+// Command-line options for the position and scale of a grid in world coordinates.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -10,17 +10,18 @@
 
 namespace grove::detail {
 
-// --cell-size and --origin. Must outlive the parsing of the command line.
+// The options --cell-size and --origin. The object must outlive the parsing of the command line.
 class FrameArguments {
  public:
   void add_to(CLI::App& command);
 
   bool given() const { return cell_size_ > 0 || has_origin(); }
   bool has_origin() const { return !origin_.empty(); }
-  // Metres; 0 if not given.
+  // Returns the side of a cell in metres; 0 if --cell-size is not given.
   double cell_size() const { return cell_size_; }
-  // Throws CLI::ValidationError if --origin is not two numbers, or on a roadmap, which has
-  // coordinates in metres.
+  // Returns the frame, with defaults for options that are not given. Throws CLI::ValidationError if
+  // --origin is not two numbers, or if an option is given for an instance on a roadmap, because a
+  // roadmap has its own coordinates in metres.
   Frame frame(const Instance& instance) const;
 
  private:

@@ -8,8 +8,8 @@
 
 namespace grove::detail {
 
-// Returns (cost - lower bound) / lower bound in percent, such as "0.95 %". Returns "-" without a
-// cost, and "infinite" if the bound is 0 and the cost is not.
+// Returns (cost - lower_bound) / lower_bound in percent, such as "0.95 %". Returns "-" if `cost` is
+// nullopt, and "infinite" if the bound is 0 and the cost is not.
 std::string gap_text(std::optional<Cost> cost, Cost lower_bound);
 
 }  // namespace grove::detail

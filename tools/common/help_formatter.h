@@ -6,8 +6,8 @@
 
 namespace grove::detail {
 
-// CLI11's help with wrapped descriptions, for terminals of 100 columns. Options without a
-// description are for experiments and not shown.
+// CLI11's help layout with descriptions wrapped for terminals of 100 columns. Options without a
+// description are hidden, because they are only for experiments.
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option(const CLI::Option* option, bool is_positional) const override;

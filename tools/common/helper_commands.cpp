@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Commands that are Python programs beside this one. They parse their own options and print their
-// own help.
+// Subcommands that are separate Python programs. Each parses its own options and prints its own
+// help.
 #include "tools/common/commands.h"
 #include "tools/common/helper_program.h"
 
 namespace grove::detail {
 namespace {
 
-// grove NAME executes grove-NAME.
+// Adds the subcommand `name`, which replaces this process by the program grove-NAME.
 void add(CLI::App& app, const std::string& name, const std::string& description) {
   CLI::App* command = app.add_subcommand(name, description);
   command->set_help_flag();

@@ -16,12 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The folder of this program, independent of how it was called.
+// Returns the folder of this program's executable, however it was started (PATH, symbolic link).
 fs::path own_folder() {
   return fs::read_symlink("/proc/self/exe").parent_path();
 }
 
-// The installed program if there is one, else the one in the folder of this program (build folder).
+// Returns the path of the installed program if it exists; otherwise its path in the folder of this
+// program (build folder), where it may not exist.
 fs::path place_of(const std::string& program) {
   const fs::path installed = own_folder().parent_path() / "libexec/grove" / program;
   return fs::exists(installed) ? installed : own_folder() / program;
@@ -38,7 +39,7 @@ void replace_process(const std::string& program, std::vector<std::string> argume
 }  // namespace
 
 void replace_standard_input(std::string_view text) {
-  // A file without a name, so that it disappears with the process.
+  // tmpfile() has no name, so the file is freed when the process ends.
   std::FILE* file = std::tmpfile();
   const bool is_written = file != nullptr &&
                           std::fwrite(text.data(), 1, text.size(), file) == text.size() &&
@@ -67,7 +68,7 @@ void exec_program(const std::string& name, const std::vector<std::string>& argum
                                  package));
   replace_process(program, arguments);
   const int error = errno;
-  // The program exists, so the missing file is its interpreter.
+  // The program exists, so ENOENT refers to the interpreter in its first line.
   if (error == ENOENT)
     throw InputError(program, "",
                      "there is no /usr/bin/python3; expected the Debian package python3");

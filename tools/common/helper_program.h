@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Programs beside this one with functions that few commands need, so that other commands start
-// without their libraries.
+// Helper programs that implement some commands. They are separate, so that grove itself starts
+// without loading their libraries.
 #pragma once
 
 #include <string>
@@ -9,16 +9,18 @@
 
 namespace grove::detail {
 
-// Makes `text` the standard input of this program, and of a program that exec_program() starts.
-// Throws InputError.
+// Makes `text` the standard input of this process, and therefore of a program that exec_program()
+// starts. Throws InputError if a temporary file cannot be written.
 void replace_standard_input(std::string_view text);
 
-// Returns the path of a program that is built and installed beside this one. Throws InputError if
-// there is none.
+// Returns the path of the program `name` in the folder of this program. Throws InputError if it
+// does not exist.
 std::string program_beside(const std::string& name);
 
-// Replaces this process by that program (exec); does not return. Throws InputError if it does not
-// exist or cannot be run. `package`: the Debian package that contains it.
+// Replaces this process by the program `name` (exec); does not return. The program is in
+// ../libexec/grove (installed) or in the folder of this program (build folder). Throws InputError,
+// which names the Debian package `package` that contains the program, if it does not exist, and
+// InputError if it cannot be run.
 [[noreturn]] void exec_program(const std::string& name, const std::vector<std::string>& arguments,
                                const std::string& package = "grove");
 

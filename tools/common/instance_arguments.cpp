@@ -31,7 +31,7 @@ void add_confine_option(CLI::App& command, bool& confined) {
 }
 
 InputRules input_rules(bool confined, double memory_gb) {
-  constexpr double kMaxBytes = 1e18;  // fits into a size_t
+  constexpr double kMaxBytes = 1e18;  // bytes; fits into a size_t
   return {.confined = confined,
           .memory = static_cast<std::size_t>(std::min(memory_gb * 1e9, kMaxBytes))};
 }

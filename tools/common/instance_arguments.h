@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The arguments by which every command names an instance.
+// Command-line arguments that name an instance; the same for all commands.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -12,32 +12,34 @@
 
 namespace grove::detail {
 
-// INSTANCE.cts.json, - for standard input, or FILE.scen with --agents and optionally --map. Must
-// outlive the parsing of the command line.
+// An instance is FILE.cts.json, - for standard input, or FILE.scen with --agents and optionally
+// --map. The object must outlive the parsing of the command line.
 class InstanceArguments {
  public:
   void add_to(CLI::App& command);
   // Adds --no-following, for commands that search.
   void add_rules_to(CLI::App& command);
 
-  // Reads the files; if `speaks`, prints warnings on standard error. Throws InputError, and
-  // CLI::ValidationError if the arguments contradict each other.
+  // Reads the instance and its map. Prints warnings on standard error if `speaks`. Throws
+  // InputError for bad files and CLI::ValidationError if the arguments contradict each other.
   LoadedInstance load(bool speaks = true) const;
 
-  // Name of the instance in messages and results: the path, or "standard input".
+  // Returns the name of the instance for messages and results: its path, or "standard input".
   std::string name() const;
-  // "" for standard input.
+  // Returns the path of the instance file; "" for standard input.
   std::filesystem::path path() const { return is_standard_input() ? "" : path_; }
-  // Base of names of output files: "x" of "maps/x.cts.json", "x-20" of the first 20 rows of
-  // "x.scen".
+  // Returns the stem for names of output files: "x" for "maps/x.cts.json", "x-20" for the first 20
+  // rows of "x.scen", "stdin" for standard input.
   std::string stem() const;
 
-  // Sets the limit for maps and states of instances, GB, instead of 80 % of the memory.
+  // Sets the memory limit in GB for the map and the states of the instance. The default is
+  // default_memory_gb().
   void limit_memory(double gigabytes) { memory_gb_ = gigabytes; }
   InputRules rules() const;
 
   bool is_standard_input() const { return path_ == "-"; }
-  // Sets the content of standard input for load(), because the processes of a run share one.
+  // Makes load() use `text` instead of reading standard input, because only one process of an MPI
+  // run can read it.
   void set_standard_input(std::string text) { standard_input_ = std::move(text); }
 
  private:
@@ -53,14 +55,15 @@ class InstanceArguments {
   std::optional<std::string> standard_input_;
 };
 
-// --confine: see InputRules.
+// Adds the flag --confine; see InputRules::confined.
 void add_confine_option(CLI::App& command, bool& confined);
+// Returns the rules for reading instances. `memory_gb`: memory limit in GB.
 InputRules input_rules(bool confined, double memory_gb);
 
-// Reads standard input to its end. Throws InputError.
+// Reads standard input to its end. Throws InputError if it cannot be read.
 std::string read_standard_input();
 
-// Prints a line "grove: warning: ..." on standard error for each.
+// Prints each warning on standard error as a line "grove: warning: ...".
 void print_warnings(const std::vector<std::string>& warnings);
 
 }  // namespace grove::detail

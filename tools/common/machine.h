@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The cores, the memory and the name of this machine.
+// Properties of this machine: cores, memory, name, processor.
 #pragma once
 
 #include <string>
@@ -8,15 +8,18 @@
 
 namespace grove::detail {
 
-// usable_memory() in GB.
+// Returns usable_memory() in GB (1e9 bytes).
 double usable_memory_gb();
-// default_memory_limit() in GB: the default of --memory-limit.
+// Returns default_memory_limit() in GB (1e9 bytes), the default of --memory-limit.
 double default_memory_gb();
-// Returns the cores that this process may use, as a text that is equal for equal sets of cores.
+// Returns the numbers of the cores on which this process may run. Equal texts mean equal sets of
+// cores.
 std::string usable_cores_text();
-// "host Linux x86_64, 8 cores, 16.0 GB", and ", 4.0 GB of them granted" if a job limit is lower.
+// Returns "host Linux x86_64, 8 cores, 16.0 GB", followed by ", 4.0 GB of them granted" if a job
+// limit is lower than the physical memory.
 std::string machine_text();
-// "Intel(R) Xeon(R) CPU @ 2.20GHz, 8 cores": identifies the machine in results.
+// Returns the processor model and the number of cores, which identify the machine in results:
+// "Intel(R) Xeon(R) CPU @ 2.20GHz, 8 cores".
 std::string processor_text();
 
 }  // namespace grove::detail

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Makes manual pages and completions of a program from its own table of options, in build/<preset>/manual, and
-# installs them with the component.
+# grove_manual(PROGRAM COMPONENT): lets the program write its manual pages and shell completions to
+# build/<preset>/manual, and installs them with the component.
 function(grove_manual program component)
   set(folder ${PROJECT_BINARY_DIR}/manual)
   set(pages ${folder}/man1/${program})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Manual pages and shell completions, made from a program's table of commands.
+// Generates manual pages and shell completions from a program's CommandText.
 #pragma once
 
 #include <filesystem>
@@ -12,14 +12,14 @@ namespace grove::detail {
 
 inline constexpr const char* kShells[] = {"bash", "zsh", "fish"};
 
-// Returns the completion script of this program for one of kShells.
+// Returns the completion script for `program`. `shell`: one of kShells.
 std::string completion_script(const CommandText& program, const std::string& shell);
 
 struct ManualPage {
   std::string name;  // "grove-solve.1"
-  std::string text;  // roff, for man
+  std::string text;  // in roff
 };
-// Returns a page of the program and one of each command. The page of a command includes its
+// Returns one page for the program and one for each command. The page of a command includes its
 // subcommands.
 std::vector<ManualPage> manual_pages(const CommandText& program, const std::string& version);
 

@@ -9,7 +9,7 @@
 namespace grove::detail {
 namespace {
 
-// Escapes text for man: no line is a request, no dash a hyphen.
+// Escapes text for roff, so that no line becomes a request and each '-' stays a minus sign.
 std::string plain(const std::string& text) {
   std::string made;
   bool begins = true;
@@ -52,7 +52,7 @@ std::string option_section(const CommandText& command) {
   return text;
 }
 
-// Keeps paragraphs. Indented lines keep their layout.
+// Converts a footer to roff. Keeps its paragraphs, and the layout of indented lines.
 std::string footer_text(const std::string& footer) {
   std::istringstream lines(footer);
   std::string text;
@@ -76,7 +76,7 @@ std::string command_section(const CommandText& command) {
   return text;
 }
 
-// The first sentence, for man's list of pages.
+// Returns the beginning of the description up to the first '.' or ':', for the NAME section.
 std::string summary_of(const CommandText& command) {
   return command.description.substr(0, command.description.find_first_of(".:"));
 }

@@ -33,7 +33,7 @@ std::vector<std::int64_t> parse_integers(const std::string& option, const std::s
   return values;
 }
 
-// "7" or "3-9".
+// Parses one integer ("7") or a range ("3-9", both ends included).
 std::vector<std::int64_t> parse_range(const std::string& option, const std::string& text,
                                       IntegerRange range) {
   const std::size_t dash = text.find('-', 1);
@@ -46,7 +46,7 @@ std::vector<std::int64_t> parse_range(const std::string& option, const std::stri
   return values;
 }
 
-// "7" or "10:100:10".
+// Parses one integer ("7"), FIRST:LAST or FIRST:LAST:STEP ("10:100:10").
 std::vector<std::int64_t> parse_steps(const std::string& option, const std::string& text) {
   constexpr IntegerRange kCounts{1, 1'000'000};
   const auto parts = CLI::detail::split(text, ':');

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Options with numbers, parsed strictly, because CLI11's own conversions accept more than numbers
-// and their errors explain little. The variables must outlive the parsing. A variable keeps its
-// value if the option is not given; this value is shown as the default unless the option is
-// required.
+// Strictly parsed numeric options. CLI11's own conversions accept more than numbers, and their
+// errors explain little. The variables must outlive the parsing. A variable keeps its value if the
+// option is not given. The help shows this value as the default unless the option is required.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -12,39 +11,42 @@
 
 namespace grove::detail {
 
+// Inclusive at both ends.
 struct IntegerRange {
   std::int64_t min = 0;
   std::int64_t max = 0;
 };
 
-// Any seed.
+// Range of random seeds.
 inline constexpr IntegerRange kSeeds{0, INT64_MAX};
-// Time steps of a plan: a time, a delay or a duration.
+// Range of times, delays and durations in a plan, in time steps.
 inline constexpr IntegerRange kPlanSteps{0, 1'000'000};
 
 CLI::Option* add_integer(CLI::App& app, const std::string& name, std::int64_t& value,
                          IntegerRange range, const std::string& description);
-// "5,10,20": a list of distinct integers. No default is shown.
+// Adds an option whose value is a list of distinct integers, such as "5,10,20". The help shows no
+// default.
 CLI::Option* add_integers(CLI::App& app, const std::string& name, std::vector<std::int64_t>& values,
                           IntegerRange range, const std::string& description);
-// "1-15,20": a list of distinct integers and ranges. `values` is unchanged if the option is not
-// given; `shown` is shown as the default.
+// Adds an option whose value is a list of integers and ranges without repetition, such as
+// "1-15,20". The help shows `shown` as the default.
 CLI::Option* add_ranges(CLI::App& app, const std::string& name, std::vector<std::int64_t>& values,
                         IntegerRange range, const std::string& shown,
                         const std::string& description);
-// "10:100:10,150": an increasing list of positive integers; 10:100:10 is 10, 20, ..., 100.
+// Adds an option whose value is an increasing list of positive integers, such as "10:100:10,150",
+// where FIRST:LAST:STEP stands for FIRST, FIRST + STEP, ... up to LAST.
 CLI::Option* add_counts(CLI::App& app, const std::string& name, std::vector<std::int64_t>& values,
                         const std::string& description);
-// An option that may be given several times, with exactly one value each.
+// Adds an option that can be given several times, each time with exactly one value.
 CLI::Option* add_repeated(CLI::App& app, const std::string& name, std::vector<std::string>& values,
                           const std::string& type, const std::string& description);
-// Returns the shortest text that add_ranges() parses as `values`: "1-15,20".
+// Returns `values` as add_ranges() parses them, with consecutive values as ranges: "1-15,20".
 std::string ranges_text(const std::vector<std::int64_t>& values);
-// A decimal number from `min` to `max`.
+// Adds an option whose value is a decimal number from `min` to `max`.
 CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double min,
                         double max, const std::string& description);
 
-// Accepts only values in `names`.
+// Returns a validator that accepts only the values in `names`.
 CLI::Validator one_of(std::vector<std::string> names);
 
 // Parses `text` as an integer. Throws CLI::ValidationError, which names `option`, unless it is an

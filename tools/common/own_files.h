@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks that a command does not write to a file that it reads, nor twice to one file.
+// Checks that a command writes neither to a file that it reads nor twice to the same file.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +12,12 @@
 namespace grove::detail {
 
 struct OwnFile {
-  std::string option;  // by which the file is named
+  std::string option;  // option that names the file
   std::string file;    // "" if the option is not given
 };
 
-// Throws CLI::ValidationError for "-", which is not a file. Throws InputError if a file is the
-// instance, its map, one of `plans`, or another one of the files.
+// Throws CLI::ValidationError if one of `files` is "-", which is not a file. Throws InputError if
+// one of them is the instance, its map, one of `plans`, or the same as another one of them.
 void require_own_files(const std::vector<OwnFile>& files, const InstanceArguments& instance,
                        const LoadedInstance& loaded, const std::vector<std::string>& plans);
 

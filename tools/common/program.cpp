@@ -27,8 +27,8 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// Returns the innermost subcommand that was reached: "grove generate map" of "grove generate map
-// --wrong".
+// Returns the innermost subcommand that the parser has reached: "grove generate map" for the
+// command line "grove generate map --wrong".
 const CLI::App& reached_command(const CLI::App& app) {
   const auto subcommands = app.get_subcommands();
   return subcommands.empty() ? app : reached_command(*subcommands.back());
@@ -63,8 +63,8 @@ Words words_of(const CLI::App& app, int argc, char** argv) {
   return words;
 }
 
-// Handles "grove help --completion bash" and "grove help --manual FOLDER", which concern the whole
-// program. Returns whether the command line asks for one of them.
+// Handles "grove help --completion SHELL" and "grove help --manual FOLDER". Returns whether the
+// command line is one of them. Throws CLI::ValidationError for other options of "grove help".
 bool handle_program_help(const CLI::App& app, const Words& words, bool speaks) {
   if (words.size() < 2 || words[0] != "help" || !words[1].starts_with("--")) return false;
   const std::string value = words.size() == 3 ? words[2] : "";
@@ -82,7 +82,8 @@ bool handle_program_help(const CLI::App& app, const Words& words, bool speaks) {
       "help", "expected a command, '--completion bash', zsh or fish, or '--manual FOLDER'");
 }
 
-// Reports a full disk or a closed pipe as a failure.
+// Flushes standard output. Returns the exit code: a failure if it cannot be written, for instance
+// because of a full disk or a closed pipe.
 int flush_output(const CLI::App& app) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return kExitSuccess;
   print_error(app, "standard output: cannot be written");
@@ -100,7 +101,7 @@ void let_last_option_win(CLI::App& app) {
 }
 
 void prepare_program(CLI::App& app) {
-  std::signal(SIGXFSZ, SIG_IGN);  // write() then fails at the file size limit
+  std::signal(SIGXFSZ, SIG_IGN);  // at the file size limit write() then fails with EFBIG
   app.formatter(std::make_shared<HelpFormatter>());
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);

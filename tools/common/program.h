@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Common parts of all programs: help, error messages, exit codes.
+// Code that all programs share: help, error messages, exit codes.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -8,27 +8,28 @@
 
 namespace grove::detail {
 
-// Prints one line on standard error: "grove: error: ...".
+// Prints `message` as one line on standard error: "grove: error: ...".
 void print_error(const CLI::App& app, const std::string& message);
 
-// If an option with one value is given several times, the last one counts, as with compilers, so
-// that a user can override the options of a script. Call it before options and subcommands are
-// added.
+// If a single-value option is given several times, makes the last value count, as in compilers, so
+// that a user can override the options of a script. Call it before adding options and subcommands.
 void let_last_option_win(CLI::App& app);
 
-// Sets the help layout and the version option that all programs have. Call it before subcommands
-// are added, because they inherit both.
+// Sets what all programs have in common: help layout, --version, a required subcommand,
+// let_last_option_win(), and SIGXFSZ ignored. Call it before adding subcommands, because they
+// inherit the settings.
 void prepare_program(CLI::App& app);
 
-// Parses the command line, which runs the commands, and turns what they throw into an exit code
-// (commands.h). Errors, help and version are printed only if `speaks`; of several processes with
-// the same output, one should print. `refused` is called with the reason if the command does not
-// run, or ends early. Internal failures propagate.
+// Parses the command line and thereby runs the command. Turns its exceptions into an exit code
+// (commands.h), except that exceptions for internal failures propagate. Prints errors, help and the
+// version only if `speaks`; in an MPI run only one process should print. Calls `refused` with the
+// reason if bad usage, bad input, or a request for help or the version ended the program.
 int run_program(
     CLI::App& app, int argc, char** argv, bool speaks = true,
     const std::function<void(const std::string& why)>& refused = [](const std::string&) {});
 
-// Runs a program of a single process: run_program(), and reports internal failures as well.
+// Like run_program(), for a program with a single process. Also reports internal failures and
+// returns kExitInternalFailure for them.
 int run_only_process(CLI::App& app, int argc, char** argv);
 
 }  // namespace grove::detail

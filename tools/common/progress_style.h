@@ -5,7 +5,7 @@
 
 namespace grove::detail {
 
-// Returns the style of progress on standard error, with its current width.
+// Returns the style for progress output on standard error, with the current width of the terminal.
 batch::ProgressStyle stderr_style();
 
 }  // namespace grove::detail

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-# Commands that are Python programs. They are copied to the folder of grove, where grove searches for them.
+# Build rules for commands that are Python programs.
+
+# grove_python_copies(TARGET FILE...): copies files to the folder of the executable grove, where grove looks for them.
 function(grove_python_copies target)
   foreach(file IN LISTS ARGN)
     add_custom_command(OUTPUT ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${file}

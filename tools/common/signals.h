@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Requests to a run by signals.
+// Requests to a run that arrive as signals: stop, or write a checkpoint.
 #pragma once
 
 #include <atomic>
@@ -12,15 +12,15 @@ extern std::atomic<bool> interrupted;
 // Set by SIGUSR1; the code that writes the checkpoint resets it.
 extern std::atomic<bool> checkpoint_requested;
 
-// From now on SIGUSR1 requests a checkpoint, even if the program was started with this signal
-// blocked or ignored. Without this call SIGUSR1 ends the process. Call it first in main(), so that
-// a job script may send the signal at any time.
+// Makes SIGUSR1 request a checkpoint, even if the program was started with this signal blocked or
+// ignored. By default SIGUSR1 ends the process. Therefore call it first in main(), so that a job
+// script can send the signal at any time.
 void accept_checkpoint_signal();
 
-// Like accept_checkpoint_signal(). In addition the first Ctrl-C, SIGTERM or SIGHUP ends the search.
-// A second Ctrl-C has its default effect; a second SIGTERM has not, because batch systems send it
-// twice. A closed pipe of the log (`| head`) does not end the process, so the plan is still
-// written.
+// Like accept_checkpoint_signal(). In addition, Ctrl-C, SIGTERM or SIGHUP sets `interrupted`, and
+// the search stops. A second Ctrl-C ends the process. A second SIGTERM or SIGHUP does not, because
+// batch systems send SIGTERM twice. SIGPIPE is ignored, so if the reader of the log ends (`| head`)
+// the plan is still written.
 void stop_on_signals();
 
 }  // namespace grove::detail

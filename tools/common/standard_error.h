@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Messages on standard error. It may be closed, a full disk or a pipe without a reader; then the
-// message is lost, since there is no other place for it.
+// Messages on standard error. If it cannot be written (closed, disk full, pipe without a reader),
+// the message is lost, because there is no other place to report it.
 #pragma once
 
 #include <string_view>
 
 namespace grove::detail {
 
-// Writes a line to standard error if possible. Throws nothing. Thread-safe.
+// Writes a line to standard error if possible. Never throws. Thread-safe.
 void print_to_stderr(std::string_view line);
 
 }  // namespace grove::detail

@@ -5,7 +5,8 @@
 
 namespace grove::detail {
 
-// "grove 0.1.0 (git 0123456789ab)"; with "-dirty" after the hash of a tree with changes.
+// Returns "grove 0.1.0 (git 0123456789ab)", with "-dirty" after the hash if the working tree had
+// uncommitted changes.
 std::string version_text();
 
 }  // namespace grove::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Command line of grove convert INSTANCE OUT, grove convert --plan PLAN INSTANCE OUT, and grove
-// convert ROADS OUT.
+// grove convert: the command line. Its forms are grove convert INSTANCE OUT, grove convert --plan
+// PLAN INSTANCE OUT, and grove convert ROADS OUT or MAP OUT.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -97,7 +97,7 @@ Examples:
 constexpr double kMinScale = 1e-6;
 constexpr double kMaxScale = 1e6;
 
-// Refuses options without an effect.
+// Refuses `option` if it is given but has no effect.
 void require_use(bool given, bool used, const std::string& option, const std::string& when) {
   if (given && !used) throw CLI::ValidationError(option, "allowed only with " + when);
 }
@@ -120,7 +120,7 @@ void require_no_options_of_roads(const ConvertArguments& arguments, bool has_tim
   require_use(arguments.merges_lanes, false, "--merge-lanes", roads);
 }
 
-// For maps and roads.
+// Refuses, for maps and roads, the options that apply only to instances and plans.
 void require_no_options_of_instances(const ConvertArguments& arguments) {
   const std::string instances = "instances and plans";
   require_use(!arguments.plan.empty(), false, "--plan", instances);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove convert: writes an instance in another format.
+// grove convert: converts an instance to a different format.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ OutputMap choose_map(const ConvertArguments& arguments, const LoadedInstance& lo
   const OutputMap beside{without_suffix(arguments.output) + ".map", true};
   std::error_code ignored;
   if (!fs::exists(fs::symlink_status(beside.path, ignored))) return beside;
-  require_map_of_instance(beside.path, arguments, loaded.instance);  // does not replace another map
+  require_map_of_instance(beside.path, arguments, loaded.instance);  // never replace another map
   return {beside.path};
 }
 

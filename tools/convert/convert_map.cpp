@@ -19,7 +19,8 @@ namespace {
 constexpr std::string_view kFree = ". _0GSE";
 constexpr std::string_view kWalls = "#@TOWXx1*";
 
-// Returns "ros" or "ascii"; "" if neither --from nor the suffix determines the format.
+// Returns the source format: --from if given, otherwise "ros" or "ascii" according to the suffix;
+// "" if the suffix is unknown.
 std::string map_source_format(const ConvertArguments& arguments) {
   if (!arguments.from.empty()) return arguments.from;
   if (arguments.instance.ends_with(".yaml") || arguments.instance.ends_with(".yml")) return "ros";
@@ -51,7 +52,7 @@ Grid read_ascii(const std::string& file) {
   return Grid(static_cast<int>(lines.front().size()), static_cast<int>(lines.size()), passable);
 }
 
-// Refuses a map without a free cell. A map of a single cell is valid.
+// Returns `grid`. Throws InputError if it has no free cell; a map with a single free cell is valid.
 Grid with_free_cells(const std::string& file, Grid grid) {
   if (grid.passable_count() == 0)
     throw InputError(file, "",
@@ -78,7 +79,7 @@ bool has_moves(const Grid& grid) {
   return false;
 }
 
-// If no robot can be on the map, or move on it, throws InputError with the option to change.
+// Throws InputError, which names the option to change, if a robot cannot move on the map.
 void require_moves(const CellMap& cells, const ConvertArguments& arguments) {
   if (has_moves(cells.grid)) return;
   const int left = cells.grid.passable_count();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Arguments of grove convert, and its four conversions.
+// Arguments of grove convert, and its four conversions: instance, plan, roadmap, map.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +29,8 @@ struct ConvertArguments {
   std::int64_t agents = 0;
   std::string drop;
   bool flip_up_down = false;
-  double metres_per_step = 0;  // 0: not given
-  double seconds_per_step = 0;
+  double metres_per_step = 0;   // 0: not given
+  double seconds_per_step = 0;  // 0: not given
   std::string layout;
   std::string vehicle_type;
   bool merges_lanes = false;
@@ -42,25 +42,30 @@ struct ConvertArguments {
   bool drops(const std::string& what) const;
 };
 
-// Reads INSTANCE. Throws InputError, and CLI::ValidationError if an option is missing.
+// Reads INSTANCE, which has format `from`. Throws InputError for bad files, and
+// CLI::ValidationError if an option that this format requires is missing.
 LoadedInstance load(const ConvertArguments& arguments, InstanceFormat from);
 
-// Converts INSTANCE, or a plan of it, to OUT and prints a summary. Throw InputError, with the place
-// in INSTANCE of a part that the format of OUT cannot express, and CLI::ValidationError if options
-// contradict each other.
+// Convert INSTANCE, or a plan for it, to OUT and print a summary. Throw InputError if the format of
+// OUT cannot express a part of INSTANCE (the error has its place in the file), and
+// CLI::ValidationError if options contradict each other.
 void convert_instance(const ConvertArguments& arguments, InstanceFormat from, InstanceFormat to);
 void convert_plan(const ConvertArguments& arguments, InstanceFormat from, PlanFormat to);
 
-// Whether INSTANCE is a file of roads or OUT a roadmap; and the conversion. Throws as above.
+// Returns whether INSTANCE is a road network of another tool or OUT is a roadmap.
 bool converts_roads(const ConvertArguments& arguments);
+// Converts a road network of another tool to a roadmap and prints a summary. Throws InputError and
+// CLI::ValidationError.
 void convert_roadmap(const ConvertArguments& arguments);
 
-// Whether INSTANCE is a map of another tool or OUT a map; and the conversion. Throws as above.
+// Returns whether INSTANCE is a map of another tool or OUT is a map.
 bool converts_maps(const ConvertArguments& arguments);
+// Converts a map of another tool to a Moving AI map and prints a summary. Throws InputError and
+// CLI::ValidationError.
 void convert_map(const ConvertArguments& arguments);
 
-// Calls `write`. If the format of OUT cannot express a part of `instance`, throws InputError with
-// the place of that part in the file, which has format `from`.
+// Calls `write`, which writes OUT. If it throws because the format of OUT cannot express a part of
+// `instance`, throws InputError with the place of that part in INSTANCE, which has format `from`.
 void express(const ConvertArguments& arguments, const Instance& instance, InstanceFormat from,
              const std::function<void()>& write);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove convert --plan: writes a plan in another format.
+// grove convert --plan: converts a plan to a different format.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

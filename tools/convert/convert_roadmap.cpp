@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove convert: converts roads of another tool to a roadmap.
+// grove convert: converts a road network of another tool to a roadmap.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -18,7 +18,8 @@
 namespace grove::detail {
 namespace {
 
-// Returns "graphml" or "lif"; "" if neither --from nor the suffix determines the format.
+// Returns the source format: --from if given, otherwise "graphml" or "lif" according to the suffix;
+// "" if the suffix is unknown.
 std::string roadmap_source_format(const ConvertArguments& arguments) {
   if (!arguments.from.empty()) return arguments.from;
   if (arguments.instance.ends_with(".graphml")) return "graphml";
@@ -73,7 +74,7 @@ RoadNetwork read_network(const ConvertArguments& arguments, const std::string& f
   return network;
 }
 
-// Refuses roads without an edge, because robots could not move.
+// Throws InputError if there is no road, because robots could not move.
 void require_roads(const SteppedRoads& stepped, const ConvertArguments& arguments) {
   if (!stepped.roads.empty()) return;
   throw InputError(
@@ -94,7 +95,8 @@ void warn_of_unused_times(const RoadNetwork& network, const StepScale& scale) {
                      one_line(network.file), count)});
 }
 
-// Warns about pairs of lanes that may be one lane; only the user knows.
+// Warns about pairs of opposite one-way roads that may be a single two-way lane, because only the
+// user knows whether they are.
 void warn_of_opposite_roads(const std::vector<Road>& roads, const ConvertArguments& arguments) {
   const OppositeRoads count = opposite_roads(roads);
   std::vector<std::string> warnings;

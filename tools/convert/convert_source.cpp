@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads the INSTANCE of grove convert, and locates errors in it.
+// grove convert: reads INSTANCE and locates, in that file, what cannot be converted.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -27,7 +27,7 @@ LoadedInstance read_scen(const ConvertArguments& arguments) {
                                 arguments.rules());
 }
 
-// Returns the place, in a file of format `from`, of the agent or task that `error` names.
+// Returns the place of the agent or task that `error` names, in a file of format `from`.
 std::string place_of(const InstanceError& error, const Instance& instance, InstanceFormat from) {
   const std::string& field = error.field();
   const std::size_t slash = field.find('/');

@@ -24,11 +24,11 @@ namespace fs = std::filesystem;
 struct Image {
   int width = 0;
   int height = 0;
-  std::vector<double> light;  // 0 black to 1 white, row by row from the top
+  std::vector<double> light;  // from 0 (black) to 1 (white), row by row from the top
 };
 
 constexpr std::size_t kLargestYaml = std::size_t{1} << 16;
-// Peak memory per pixel: the decoded image and the maps made from it.
+// Peak memory per pixel, for the decoded image and the maps made from it.
 constexpr std::size_t kBytesPerPixel = 32;
 
 void require_size(const std::string& file, std::int64_t width, std::int64_t height,
@@ -40,7 +40,7 @@ void require_size(const std::string& file, std::int64_t width, std::int64_t heig
   require_memory(rules, file, "", width * height, "pixels", kBytesPerPixel);
 }
 
-// Reader of Netpbm's grey maps, binary (P5) or plain text (P2).
+// Reads a Netpbm greyscale image (PGM), binary (P5) or plain text (P2).
 class PgmReader {
  public:
   PgmReader(const fs::path& path, const InputRules& rules)
@@ -57,7 +57,7 @@ class PgmReader {
     const int most = number(1, 65535, "a greatest value");
     const std::size_t count =
         static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-    if (kind == "P5") ++at_;  // one blank before the pixels
+    if (kind == "P5") ++at_;  // the single whitespace character before the pixels
     for (std::size_t i = 0; i < count; ++i)
       image.light.push_back(
           static_cast<double>(kind == "P5" ? raw(most) : number(0, most, "a value")) / most);
@@ -101,7 +101,7 @@ class PgmReader {
   std::size_t at_ = 0;
 };
 
-// Transparent pixels count as black.
+// Reads a PNG image as greyscale. Transparent pixels count as black.
 Image read_png(const fs::path& path, const InputRules& rules) {
   const std::string bytes = read_text(path);
   if (!bytes.starts_with("\x89PNG\r\n\x1a\n"))
@@ -128,7 +128,7 @@ Image read_png(const fs::path& path, const InputRules& rules) {
   return image;
 }
 
-// Reads the keys of a map.yaml.
+// Reads the keys of a map.yaml file.
 class Keys {
  public:
   explicit Keys(const fs::path& path) : file_(path.string()) {
@@ -249,7 +249,7 @@ class Cells {
       : map_(map),
         size_(cell_size),
         radius_(radius),
-        // 1e-6: a cell fits although rounding errors make it slightly too large.
+        // 1e-6 cells of tolerance, so that rounding errors do not exclude a cell that fits exactly.
         width_(static_cast<int>(std::floor(map.width() / cell_size + 1e-6))),
         height_(static_cast<int>(std::floor(map.height() / cell_size + 1e-6))) {
     if (width_ < 1 || height_ < 1)

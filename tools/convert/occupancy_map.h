@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Occupancy grids of ROS (map_server): an image of free space, with scale and position.
+// Occupancy grids of the ROS map_server: an image of free space, with scale and position.
 #pragma once
 
 #include <filesystem>
@@ -12,22 +12,23 @@
 
 namespace grove::detail {
 
-// Free space by pixel, in the file's mode "trinary"; unknown space is not free.
+// Free and blocked pixels of an occupancy grid in mode "trinary". Unknown space is blocked.
 class OccupancyMap {
  public:
-  // Reads map.yaml and its image, PGM or PNG. Throws InputError, also for a yaw other than 0 and
-  // for modes and thresholds other than those of trinary maps.
+  // Reads map.yaml and its image (PGM or PNG). Throws InputError for bad files, for a yaw other
+  // than 0, and for modes and thresholds that are not those of trinary maps.
   explicit OccupancyMap(const std::filesystem::path& yaml, const InputRules& rules = {});
-  // From memory: rows from the top, `resolution` metres per pixel.
+  // Makes a map from memory. `free`: by pixel, row by row from the top. `resolution`: metres per
+  // pixel. `origin`: lower left corner, metres.
   OccupancyMap(int width, int height, std::vector<bool> free, double resolution, Point origin);
 
-  double resolution() const { return resolution_; }
-  Point origin() const { return origin_; }  // lower left corner, metres
+  double resolution() const { return resolution_; }  // metres per pixel
+  Point origin() const { return origin_; }           // lower left corner, metres
   double width() const { return width_ * resolution_; }
   double height() const { return height_ * resolution_; }
 
-  // Whether all pixels within `radius` of `at` are free and inside the image. Metres from the lower
-  // left corner.
+  // Returns whether a disc is inside the image and all its pixels are free. `at`: its centre,
+  // metres from the lower left corner of the image. `radius`: metres.
   bool is_clear(Point at, double radius) const;
 
  private:
@@ -40,17 +41,17 @@ class OccupancyMap {
   Point origin_;
 };
 
-// A map of cells. The lower left corner of its lowest row is that of the image.
+// A grid map made from an occupancy grid. Both have the same lower left corner.
 struct CellMap {
   Grid grid;
-  int too_near = 0;  // blocked cells whose middle is free but too near to a wall
-  int narrow = 0;    // cells blocked because no robot can move from them to a neighbour
+  int too_near = 0;  // cells blocked because their centre is free but too near to a wall
+  int narrow = 0;    // cells blocked because the robot cannot move straight to a passable neighbour
 };
 
-// Returns a map of cells of `cell_size` metres. A cell is passable if a robot of radius
-// `robot_radius` metres fits at its middle. Between two passable neighbours the robot can move
-// straight: if it cannot, the one with fewer connections is blocked. Throws std::invalid_argument
-// if no cell fits into the image.
+// Returns a grid map with cells of `cell_size` metres. A cell is passable only if a robot of radius
+// `robot_radius` metres fits at its centre. If the robot cannot move straight between two passable
+// neighbours, the one with fewer connections is blocked. Throws std::invalid_argument if no cell
+// fits into the image.
 CellMap cells_of(const OccupancyMap& map, double cell_size, double robot_radius);
 
 }  // namespace grove::detail

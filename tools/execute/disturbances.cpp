@@ -67,10 +67,10 @@ void Disturbances::read_stops(const DisturbanceArguments& arguments, const Insta
   }
 }
 
-// For a slow robot, rounds the total duration of its actions, not each duration.
+// For a slow robot, rounds the total duration of its actions so far instead of each duration.
 Duration Disturbances::durations(const ActionDependencyGraph& order, std::uint64_t seed) const {
   struct Run {
-    std::vector<double> owed;  // by agent: fraction of a step not yet added
+    std::vector<double> owed;  // by agent: fraction of a time step that is not yet added
     std::vector<Stop> stops;   // stops that have not happened yet
   };
   const auto state = std::make_shared<Run>(Run{std::vector<double>(slowness_.size()), stops_});
@@ -86,7 +86,7 @@ Duration Disturbances::durations(const ActionDependencyGraph& order, std::uint64
       steps += 1 + static_cast<Time>(unit_draw(seed, draw + 1) * delay_steps_);
     for (Stop& stop : state->stops) {
       if (stop.agent != action.agent || begin + steps <= stop.from) continue;
-      stop.agent = -1;  // it has happened
+      stop.agent = -1;  // this stop has happened
       if (stop.steps == kNever) return kNever;
       steps += stop.steps;
     }

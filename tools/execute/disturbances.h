@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Disturbances of robots, from the command line.
+// Disturbances of robots during simulated execution: delays, slow robots, stops, failures.
 #pragma once
 
 #include <cstdint>
@@ -11,29 +11,31 @@
 
 namespace grove::detail {
 
-// Values of the options.
+// Values of the command-line options.
 struct DisturbanceArguments {
-  double delayed = 0;             // share of actions that take longer, 0 to 1
-  std::int64_t delay_steps = 3;   // maximum delay of such an action
-  std::vector<std::string> slow;  // ROBOT=FACTOR
-  std::vector<std::string> stop;  // ROBOT@TIME=STEPS
+  double delayed = 0;                 // share of actions that are delayed, from 0 to 1
+  std::int64_t delay_steps = 3;       // maximum delay of an action, time steps
+  std::vector<std::string> slow;      // ROBOT=FACTOR
+  std::vector<std::string> stop;      // ROBOT@TIME=STEPS
   std::vector<std::string> failures;  // ROBOT@TIME
 };
 
-// The same as numbers, for the robots of an instance.
+// Parsed disturbances for the robots of an instance.
 class Disturbances {
  public:
-  // Throws CLI::ValidationError, which names the option and its value.
+  // Throws CLI::ValidationError, which names the option and its value, for a bad value.
   Disturbances(const DisturbanceArguments& arguments, const Instance& instance);
 
-  // Returns the durations of actions in one execution; each seed gives another one.
+  // Returns the function that gives the duration of each action in one execution. Use it for one
+  // execution only, because it has state. The random delays depend on `seed`. `order` and this
+  // object must outlive it.
   Duration durations(const ActionDependencyGraph& order, std::uint64_t seed) const;
 
  private:
   struct Stop {
     AgentIndex agent = -1;
     Time from = 0;
-    Time steps = 0;  // kNever: for ever
+    Time steps = 0;  // kNever: the robot stops for ever
   };
 
   void read_stops(const DisturbanceArguments& arguments, const Instance& instance);

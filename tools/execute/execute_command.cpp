@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove execute INSTANCE PLAN.
+// grove execute: simulates executions of a plan with disturbances.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -72,7 +72,7 @@ struct ExecuteArguments {
   std::string view;
 };
 
-// Results of executions.
+// Results of several simulated executions.
 struct Totals {
   std::vector<Cost> makespans;
   std::vector<Cost> costs;
@@ -144,7 +144,8 @@ class Execution {
     Solution solution;
     solution.plan = executed_plan(loaded_.instance, *claimed_.solution.plan, order_, trace);
     solution.lower_bound = 0;
-    solution.may_follow = claimed_.solution.may_follow;  // an execution adds no following
+    // An execution has following conflicts only if the plan has.
+    solution.may_follow = claimed_.solution.may_follow;
     solution.status = status_of(solution.plan->cost, 0, solution.omega);
     solution.stats.texts["executed"] = a_.plan;
     solution.stats.texts["options"] = options_;
@@ -171,7 +172,7 @@ class Execution {
     write(a_.view, plan_page(name, page_data(name, loaded_.instance, plans)));
   }
 
-  // Uses the independent checker: an execution with a collision is an error in Grove.
+  // Checks the execution with the independent checker, because a collision is an error in Grove.
   void require_valid(const ExecutionTrace& trace) const {
     require_valid_plan(loaded_.instance, solution_of(trace));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robots and plans named on the command line.
+// Reads robots and plans that the command line names.
 #pragma once
 
 #include <string>
@@ -9,16 +9,17 @@
 
 namespace grove::detail {
 
-// Throws CLI::ValidationError: "`option`: found '`text`'; expected `expected`".
+// Throws CLI::ValidationError with the message "OPTION: found 'TEXT'; expected EXPECTED".
 [[noreturn]] void refuse(const std::string& option, const std::string& text,
                          const std::string& expected);
 
-// Returns the robot called `id`, the first part of `text`. Throws CLI::ValidationError.
+// Returns the robot `id`, where `id` is the first part of the value `text` of `option`. Throws
+// CLI::ValidationError if there is no such robot.
 AgentIndex robot_of(const std::string& option, const std::string& text, const std::string& id,
                     const Instance& instance);
 
-// Reads the plan to execute, in any format, and prints warnings. Throws InputError if there is none
-// or if it is not valid.
+// Reads the plan to execute, in any supported format, and prints warnings. Throws InputError if the
+// file has no plan or the plan is not valid for `instance`.
 ClaimedPlan read_plan_to_execute(const std::string& file, const Instance& instance);
 
 }  // namespace grove::detail

@@ -24,7 +24,8 @@ void flood(const Grid& grid, Cell first, int label, std::vector<int>& labels) {
 
 using Neighbors = std::vector<std::vector<int>>;  // by vertex
 
-// Appends the unseen vertices that are reachable from `from`, in depth-first postorder.
+// Appends to `visited` the unseen vertices that are reachable from `from`, in depth-first
+// postorder, and marks them as seen.
 void visit_after_next(const Neighbors& next, int from, std::vector<bool>& seen,
                       std::vector<int>& visited) {
   std::vector<std::pair<int, std::size_t>> stack{
@@ -66,8 +67,8 @@ std::vector<Cell> largest_component(const Grid& grid) {
   return cells;
 }
 
-// Kosaraju's algorithm: a depth-first search along the roads, then one against them from the
-// vertices in reverse postorder of the first.
+// Kosaraju's algorithm: a depth-first search along the roads, then depth-first searches against the
+// roads that start from the vertices in reverse postorder of the first search.
 std::vector<int> largest_strong_component(const Roadmap& roadmap) {
   const std::size_t count = roadmap.vertices().size();
   Neighbors next(count);

@@ -8,16 +8,16 @@
 
 namespace grove::detail {
 
-// Returns for each cell the number of its connected component of passable cells, from 0 in the
-// order of the components' first cells; -1 for blocked cells.
+// Returns, for each cell, the number of its connected component of passable cells; -1 for blocked
+// cells. Components are numbered from 0 in the order of their first cells.
 std::vector<int> components(const Grid& grid);
 
-// Returns the cells of the largest component (the first of several) in ascending order. Empty if
-// all cells are blocked.
+// Returns the cells of the largest component in ascending order (the first component of several
+// equally large ones). Returns an empty vector if all cells are blocked.
 std::vector<Cell> largest_component(const Grid& grid);
 
-// Returns the vertices of the largest strongly connected component (the first of several) in
-// ascending order.
+// Returns the vertices of the largest strongly connected component in ascending order; one of them
+// if several are equally large.
 std::vector<int> largest_strong_component(const Roadmap& roadmap);
 
 }  // namespace grove::detail

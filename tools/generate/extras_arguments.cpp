@@ -10,7 +10,7 @@
 namespace grove::detail {
 namespace {
 
-// "0-10" or "5".
+// Parses the range of task durations in time steps, "0-10" or "5".
 Extras::Range parse_durations(const std::string& option, const std::string& text) {
   const IntegerRange steps{0, InstanceBuilder::kMaxDuration};
   const std::size_t dash = text.find('-', 1);

@@ -8,14 +8,14 @@
 
 namespace grove::detail {
 
-// --turning, --turn-steps, --goal-headings, --durations. Must outlive the parsing of the command
-// line.
+// The options --turning, --turn-steps, --goal-headings and --durations. The object must outlive the
+// parsing of the command line.
 class ExtrasArguments {
  public:
   void add_to(CLI::App& command);
 
-  // `with_goals`: whether some agents will have destinations. Throws CLI::ValidationError if the
-  // arguments contradict each other.
+  // Returns the extras. `with_goals`: whether some agents will have destinations. Throws
+  // CLI::ValidationError if the arguments contradict each other.
   Extras extras(bool with_goals) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove generate: the command, and functions that its subcommands share.
+// grove generate: the command itself, and functions that its subcommands share.
 #include <fmt/format.h>
 
 #include "io/map_file.h"

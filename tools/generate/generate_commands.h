@@ -24,20 +24,22 @@ void add_generate_instance_command(CLI::App& generate);
 void add_generate_dataset_command(CLI::App& generate);
 void add_generate_paper_command(CLI::App& generate);
 
-// Adds the required option --output.
+// Adds the required option --output, whose value has the type name `type_name` in the help.
 void add_output(CLI::App& command, std::string& path, const std::string& type_name);
 
-// Reads a map and prints its warnings.
+// Reads a map file and prints its warnings.
 Grid load_map(const std::string& map);
 
-// Reads all rows of a scenario file, which must be for `map`.
+// Reads all rows of a scenario file. Throws InputError if they are not for the map at `map`, which
+// has the content `grid`.
 Scenario load_scenario(const std::string& file, const std::string& map, const Grid& grid);
 
-// Draws a scenario for `map` with as many rows as the instance needs.
+// Draws a random scenario for `map` with the number of rows that `request` needs.
 Scenario draw_scenario(const std::string& map, const Grid& grid, const InstanceRequest& request,
                        std::int64_t seed);
 
-// Returns the path of `map` as an instance file at `instance` must name it.
+// Returns the path of `map` relative to the folder of the instance file `instance`, as that file
+// must name it.
 std::string map_as_seen_from(const std::filesystem::path& instance, const std::string& map);
 
 }  // namespace grove::detail

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grove generate dataset: instances for every combination of scenarios, agents and tasks.
+// grove generate dataset: generates instances for every combination of scenario, number of agents
+// and number of tasks.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,7 +40,8 @@ struct DatasetArguments {
   std::string output_dir;
 };
 
-// Returns "7" for "room-32-32-4-random-7.scen"; `position` if the name does not end in a number.
+// Returns the number at the end of a scenario's file name, "7" for "room-32-32-4-random-7.scen";
+// `position` if the name does not end in "-NUMBER".
 std::string number_of(const std::string& file, std::size_t position) {
   const std::string stem = fs::path(file).stem().string();
   const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
@@ -82,7 +84,7 @@ void run(const DatasetArguments& arguments) {
                                       ? draw_scenarios(arguments, grid)
                                       : load_scenarios(arguments, grid)}};
   const SetSizes sizes{arguments.agents, arguments.tasks, {arguments.mg}, extras};
-  // Checks the whole set before it writes the first file, so that no incomplete set remains.
+  // Checks all combinations before the first file is written, so that no incomplete set remains.
   require_fitting(maps, sizes);
   write_set(arguments.output_dir, maps, sizes);
 }

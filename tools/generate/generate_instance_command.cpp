@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove generate scenario, grove generate instance
+// grove generate scenario and grove generate instance.
 #include <fmt/format.h>
 
 #include <algorithm>

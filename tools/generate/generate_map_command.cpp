@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove generate map empty|random|rooms
+// grove generate map: empty, random and rooms.
 #include <fmt/format.h>
 
 #include <memory>
@@ -27,7 +27,7 @@ struct MapArguments {
   std::uint64_t map_seed() const { return static_cast<std::uint64_t>(seed); }
 };
 
-// Shared by the functions that add the commands and their callbacks.
+// The callbacks share the ownership of the arguments, which must outlive the parsing.
 using SharedArguments = std::shared_ptr<MapArguments>;
 using DrawMap = Grid (*)(const MapArguments&);
 
@@ -42,7 +42,7 @@ void run(const MapArguments& arguments, DrawMap draw) {
   }
 }
 
-// Adds the command for one kind of map, with what all kinds share.
+// Adds the command for one kind of map, with the options that all kinds have.
 CLI::App* add_kind(CLI::App& map, const SharedArguments& arguments, const std::string& name,
                    const std::string& description, DrawMap draw) {
   CLI::App* command = map.add_subcommand(name, description);

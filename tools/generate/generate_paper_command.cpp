@@ -45,7 +45,8 @@ Examples:
   grove generate paper --scenarios 1-3 --agents 5 --problem cts --output-dir small
   grove bench small/manifest.txt --run 'paper: --policy fixed' --run 'grove:' --output-dir results)";
 
-// Values of --problem. False: with destinations (CTS-MAPF); true: without (MG-MAPF).
+// Values of --problem, as the problems to generate: false is CTS-MAPF (agents have destinations),
+// true is MG-MAPF (agents have none).
 const std::map<std::string, std::vector<bool>> kProblems{
     {"both", {false, true}}, {"cts", {false}}, {"mg", {true}}};
 
@@ -71,7 +72,8 @@ fs::path scenario_file(const PaperArguments& arguments, const std::string& map, 
                                              : fmt::format("{}-even-{}.scen", map, k - kOfAKind));
 }
 
-// Benchmarks are often downloaded in part, so this checks all files first and reports which exist.
+// Throws InputError if a scenario file is missing. Checks all files first, because benchmarks are
+// often downloaded only in part; the error lists the scenarios that exist for all maps.
 void require_scenarios(const PaperArguments& arguments) {
   std::string missing;
   std::vector<std::int64_t> there;
@@ -118,7 +120,7 @@ std::vector<MapSet> load_map_sets(const PaperArguments& arguments) {
   return sets;
 }
 
-// --- generated maps, the same as in benchmarks/data ---
+// --- generated maps, identical to those in benchmarks/data ---
 
 constexpr int kSide = 32;
 constexpr int kMapSeed = 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove generate roadmap --kind planar|warehouse.
+// grove generate roadmap: planar and warehouse roadmaps.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace grove::detail {
 namespace {
 
-// Options of one kind form a group in the help, with this title.
+// Titles of the groups of options in the help, one group for each kind of roadmap.
 constexpr const char* kOnlyPlanar = "With --kind planar";
 constexpr const char* kOnlyWarehouse = "With --kind warehouse";
 

@@ -53,7 +53,7 @@ void write_set(const fs::path& directory, const std::vector<MapSet>& maps, const
     const std::string seen = map_as_seen_from(directory / "any", map.map);
     for_each_instance(map, sizes, [&](const std::string& name, const Instance& instance) {
       write_instance(directory / name, instance, seen,
-                     Durability::kProcess);  // no fsync: there are thousands of files
+                     Durability::kProcess);  // no fsync, because there can be thousands of files
       manifest += name + "\n";
       parts[name.ends_with("_mg.cts.json") ? 1 : 0] += name + "\n";
     });

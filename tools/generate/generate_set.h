@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sets of instances: every combination of scenarios, agents and tasks, with a manifest.
+// Sets of instances: every combination of scenario, number of agents and number of tasks, with a
+// manifest.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +20,15 @@ struct NumberedScenario {
   std::int64_t seed = 0;
 };
 
-// The part of a set on one map.
+// The part of an instance set that uses one map.
 struct MapSet {
   std::string map;  // path of the file
   Grid grid;
   std::vector<NumberedScenario> scenarios;
 };
 
-// Sizes of instances; each scenario is combined with all of them.
+// Properties of the instances of a set. Each scenario is combined with every combination of
+// `agents`, `tasks` and `mg`.
 struct SetSizes {
   std::vector<std::int64_t> agents;
   std::vector<std::int64_t> tasks;
@@ -34,13 +36,14 @@ struct SetSizes {
   Extras extras = {};           // the same in all instances
 };
 
-// Throws what generate_instance() throws if a combination is impossible.
+// Generates all instances without writing them. Throws what generate_instance() throws if one is
+// impossible.
 void require_fitting(const std::vector<MapSet>& maps, const SetSizes& sizes);
 
-// Writes DIR/MAP_sS_nN_mM.cts.json, followed by the suffix of the extras and _mg for MG-MAPF, and
-// DIR/manifest.txt, which lists them; prints a summary. For a set with both problems, also writes
-// manifest-cts.txt and manifest-mg.txt, which list one each. Creates the folder if missing. Throws
-// InputError.
+// Writes the instances DIR/MAP_sS_nN_mM.cts.json (before .cts.json, the suffix of the extras and,
+// for MG-MAPF, _mg) and DIR/manifest.txt, which lists them. For a set with both problems, also
+// writes manifest-cts.txt and manifest-mg.txt with the instances of one problem each. Creates the
+// folder if it is missing and prints a summary. Throws InputError.
 void write_set(const std::filesystem::path& directory, const std::vector<MapSet>& maps,
                const SetSizes& sizes);
 

@@ -56,8 +56,8 @@ void InstanceDraft::turn_goals_into_tasks() {
   }
 }
 
-// Draws headings and durations with generators of their own, so that all else does not depend on
-// them.
+// Draws headings with a random generator of their own, so that no other part of the instance
+// depends on them.
 void InstanceDraft::add_agents(InstanceBuilder& builder) const {
   Random random = random_for(RandomUse::kMotion, request_.seed);
   for (int i = 0; i < request_.agents; ++i) {

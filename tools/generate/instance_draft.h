@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Common part of generated instances on grids and on roadmaps: assignment of tasks, motion of
-// agents, durations of tasks.
+// Parts of generated instances that grids and roadmaps have in common: assignment of tasks to
+// agents, headings of agents, durations of tasks.
 #pragma once
 
 #include <string>
@@ -13,21 +13,22 @@
 namespace grove::detail {
 
 struct DrawnAgent {
-  std::string row;  // row of the scenario, for messages; may be ""
+  std::string row;  // row of the scenario, for error messages; can be ""
   Place start = kNoPlace;
   Place goal = kNoPlace;
 };
 
-// An instance under construction. `file`, the source of the agents, is named in messages. All
-// members throw InputError.
+// An instance under construction. Error messages name `file`, from which the agents are drawn. All
+// members that change or build the instance throw InputError.
 class InstanceDraft {
  public:
-  // Agents a0, a1, ...
+  // The agents get the ids a0, a1, ...
   InstanceDraft(std::string file, std::vector<DrawnAgent> agents, const InstanceRequest& request);
 
   int task_count() const { return static_cast<int>(tasks_.size()); }
   bool has_task_on(Place place) const;
-  // Adds the next of the tasks t0, t1, ... and gives it to 1, 2 or 3 agents drawn from `able`.
+  // Adds a task on `place`; tasks get the ids t0, t1, .... Assigns it to 1, 2 or 3 distinct agents
+  // drawn from `able`.
   void add_task(Place place, std::vector<int> able);
 
   Instance build(Map map) &&;

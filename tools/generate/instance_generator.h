@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Instances of the paper's data sets (section V): agents and tasks from the rows of a scenario.
+// Generates instances as in the paper's data sets (section V), with agents and tasks from the rows
+// of a Moving AI scenario.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +13,21 @@
 namespace grove::detail {
 
 struct Scenario {
-  std::string name;  // file of the scenario, for messages
+  std::string name;  // file of the scenario, for error messages
   std::vector<ScenarioRow> rows;
 };
 
-// Features that the paper's instances do not have.
+// Optional features, which the paper's instances do not have.
 struct Extras {
   struct Range {
     Time min = 0;
     Time max = 0;
   };
-  Time turn_steps = 0;         // duration of a quarter turn; 0: agents turn instantly
+  Time turn_steps = 0;         // duration of a quarter turn, time steps; 0: turns take no time
   bool goal_headings = false;  // whether agents with turn_steps > 0 have a heading at the goal
-  Range durations = {};        // of tasks, steps, drawn uniformly
+  Range durations = {};        // range of task durations, time steps, drawn uniformly
 
-  // Returns "_turning2_d0-10", for file names; "" without extras.
+  // Returns a suffix for file names, such as "_turning2_d0-10"; "" without extras.
   std::string suffix() const;
 };
 
@@ -34,23 +35,24 @@ struct InstanceRequest {
   int agents = 1;
   int tasks = 0;
   std::uint64_t seed = 0;
-  // MG-MAPF: no agent has a destination; its destination becomes one more task of that agent.
+  // MG-MAPF: no agent has a destination; the drawn destination becomes a further task of the agent.
   bool mg = false;
-  // Drawn independently, so that all else does not depend on them. Turns only on grids.
+  // Drawn independently, so that the other parts of the instance do not depend on them. Turning is
+  // possible only on grids.
   Extras extras = {};
 };
 
-// Returns the first row (from 0) whose start may become a task: 20, or the number of agents if
-// larger.
+// Returns the first row (counted from 0) whose start can become a task: max(20, agents).
 int first_task_row(int agents);
-// Returns the number of rows that a request uses if no start repeats.
+// Returns the number of scenario rows that an instance needs if no start is repeated.
 int rows_needed(const InstanceRequest& request);
 
-// Generates an instance. The first `agents` rows are the agents a0, a1, ...; the starts of the rows
-// from first_task_row on are the tasks t0, t1, .... Each task is given to 1, 2 or 3 distinct
-// agents, drawn from all agents that can reach it. Skips rows whose start is already a task or that
-// no agent can reach. Throws InputError, which names the scenario, if it has too few rows or rows
-// that do not fit `grid`, or if an agent would get more than kMaxTasksPerAgent tasks.
+// Generates an instance. The first `agents` rows define the agents a0, a1, .... The starts of the
+// rows from first_task_row() on become the tasks t0, t1, ..., except for rows whose start already
+// has a task or cannot be reached by any agent. Each task is assigned to 1, 2 or 3 distinct agents,
+// drawn from the agents that can reach it. Throws InputError, which names the scenario, if the
+// scenario has too few rows or rows that do not fit `grid`, or if an agent would get more than
+// kMaxTasksPerAgent tasks.
 Instance generate_instance(const Grid& grid, const Scenario& scenario,
                            const InstanceRequest& request);
 

@@ -30,8 +30,8 @@ bool touches_passable(const std::vector<bool>& passable, int width, int height, 
 
 // --- rooms ---
 
-// The rooms along one axis: room k spans the cells first[k] to last[k]; a wall follows each room
-// except the last.
+// The rooms along one axis. Room k spans the cells from first[k] to last[k]. A wall follows each
+// room except the last one.
 struct Spans {
   std::vector<int> first;
   std::vector<int> last;
@@ -44,14 +44,15 @@ Spans divide(int length, int room_size) {
     spans.first.push_back(begin);
     spans.last.push_back(std::min(begin + room_size, length) - 1);
   }
-  if (spans.last.back() == length - 2) spans.last.back() = length - 1;  // no wall without a room
+  // Without a room after the last wall, that wall becomes part of the last room.
+  if (spans.last.back() == length - 2) spans.last.back() = length - 1;
   return spans;
 }
 
 struct Wall {
-  int room;        // numbered row by row
-  int other_room;  // to its right or below
-  Position first;  // the wall's cells without those at crossings
+  int room;        // rooms are numbered row by row
+  int other_room;  // the room to the right of `room` or below it
+  Position first;  // ends of the wall, without the cells where walls cross
   Position last;
 };
 
@@ -72,7 +73,8 @@ std::vector<Wall> walls_between(const Spans& columns, const Spans& rows) {
   return walls;
 }
 
-// Sorts walls whose doors connect all rooms to the front: a random spanning tree (Kruskal 1956).
+// Moves a set of walls whose doors would connect all rooms to the front: a random spanning tree of
+// the rooms (Kruskal 1956).
 void connecting_walls_first(std::vector<Wall>& walls, int rooms) {
   std::vector<int> parent(rooms);
   std::iota(parent.begin(), parent.end(), 0);
@@ -118,7 +120,8 @@ Grid random_map(int width, int height, double obstacles, std::uint64_t seed) {
   std::vector<bool> passable(cells, true);
   for (std::size_t k = 0; k < wanted; ++k) passable[order[k]] = false;
 
-  // Blocks the cells that are cut off from the largest component, and frees as many beside it.
+  // Blocks the passable cells outside the largest component and frees as many blocked cells next to
+  // it.
   const std::vector<Cell> kept = largest_component(Grid(width, height, passable));
   passable.assign(cells, false);
   for (Cell cell : kept) passable[cell] = true;

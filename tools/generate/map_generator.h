@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Generated maps, always with one connected component of passable cells. All throw
-// std::invalid_argument if the numbers contradict each other; width and height must be positive.
+// Generates maps. The passable cells of each map form one connected component. Width and height
+// must be positive. All functions throw std::invalid_argument if their arguments contradict each
+// other.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +12,14 @@ namespace grove::detail {
 
 Grid empty_map(int width, int height);
 
-// Blocks exactly the share `obstacles` (0 to 1, rounded to whole cells) at random.
+// Returns a map on which exactly the share `obstacles` of the cells (from 0 to 1, rounded to whole
+// cells) is blocked at random.
 Grid random_map(int width, int height, double obstacles, std::uint64_t seed);
 
-// Makes square rooms with a side of `room_size` cells, separated by walls of one cell; rooms at the
-// right and bottom edge may be smaller, or one cell larger. A wall between two rooms has at most
-// one door of one cell: the share `doors` (0 to 1) of the walls has one, and at least those that
-// are needed to connect all rooms.
+// Returns a map of square rooms with a side of `room_size` cells, separated by walls one cell wide.
+// Rooms at the right and bottom edge can be smaller, or one cell larger. A wall between two rooms
+// has at most one door, of one cell. The share `doors` (from 0 to 1) of the walls has a door, or
+// more if that is necessary to connect all rooms.
 Grid rooms_map(int width, int height, int room_size, double doors, std::uint64_t seed);
 
 }  // namespace grove::detail

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
-// A random planar roadmap: the Gabriel graph of random points. Points p and q are joined unless a
-// third point lies in or on the circle with diameter pq, that is, sees pq at an angle of 90 degrees
-// or more.
+// A random planar roadmap, which is the Gabriel graph of random points. Points p and q are joined
+// unless a third point lies in or on the circle with diameter pq, that is, sees pq at an angle of
+// at least 90 degrees.
 //
-// *Claim: two roads meet only at their ends.* *Proof.* Suppose that roads pq and rs have a common
-// point, and that none of the four points is on the other road. Then p r q s is a convex
-// quadrilateral. Its angles sum to 360 degrees, so one of them is at least 90, and its corner
-// prevents its two neighbours from being joined. A point on a road sees it at 180 degrees. So the
-// drawing is planar.
+// *Claim: two roads meet only at common ends.* *Proof.* Suppose that roads pq and rs without a
+// common end cross. If none of the four points is on the other road, p r q s is a convex
+// quadrilateral. Its angles sum to 360 degrees, so at least one of them is 90 degrees or more. Its
+// corner sees the opposite diagonal at that angle, so the ends of this diagonal are not joined. If
+// one of the points is on the other road, it sees that road at 180 degrees, so the road does not
+// exist. Both cases are contradictions.
 //
-// *Claim: the graph is connected.* It contains every minimum spanning tree: if r lies in or on the
-// circle over pq, then pr and rq are shorter than pq, so a tree with pq becomes shorter with one of
-// them instead.
+// *Claim: the graph is connected.* It contains every minimum spanning tree. If r lies in or on the
+// circle over pq, then pr and rq are shorter than pq, so replacing pq by one of them makes a
+// spanning tree with pq shorter.
 //
-// *One-way roads.* The direction b to a of a road may be removed if another path leads from b to a;
-// then reachability does not change. In a strongly connected network this holds for at least one
-// direction of every road that is not a bridge (Boesch, Tindell 1980), so no other order of
-// removals would find more.
+// *One-way roads.* The direction from b to a of a road can be removed without changing reachability
+// if another path leads from b to a. In a strongly connected network this holds for at least one
+// direction of every road that is not a bridge (Boesch, Tindell 1980), so no order of removals
+// yields more one-way roads than another.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -150,7 +151,7 @@ class OneWayRoads {
   }
 
   std::vector<Road>& roads_;
-  std::vector<std::vector<std::size_t>> at_;  // by vertex: roads
+  std::vector<std::vector<std::size_t>> at_;  // by vertex: positions of its roads in roads_
 };
 
 std::vector<Vertex> name(const std::vector<Spot>& spots) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random numbers of the generators.
+// Random number generators for generated instances.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace grove::detail {
 
-// Use of the numbers of a seed; different uses of one seed are independent.
+// Purpose of random numbers. One seed gives an independent sequence for each purpose.
 enum class RandomUse : std::uint32_t {
   kMap = 1,
   kScenario = 2,  // starts, goals and places of tasks

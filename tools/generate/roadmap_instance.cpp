@@ -25,7 +25,7 @@ Vertices with_prefix(const Roadmap& roadmap, Vertices vertices, const std::strin
   return vertices;
 }
 
-// Returns those of `vertices` that have roads to only one other vertex.
+// Returns the elements of `vertices` whose roads all lead to the same other vertex.
 Vertices dead_ends(const Roadmap& roadmap, const Vertices& vertices) {
   std::vector<Vertices> neighbors(roadmap.vertices().size());
   const auto add = [&](int at, int neighbor) {
@@ -49,7 +49,7 @@ Vertices without(const Vertices& vertices, Vertices others) {
   return rest;
 }
 
-// Vertices for the starts and goals of agents, and for tasks.
+// Candidate vertices for starts and goals of agents, and for tasks.
 struct Choice {
   Vertices agents;
   Vertices tasks;
@@ -83,7 +83,8 @@ std::vector<DrawnAgent> draw_agents(const Site& site, Vertices starts, int count
   Vertices goals = starts;
   random.shuffle(starts);
   random.shuffle(goals);
-  // If a goal is on its own start, swaps it with the next goal; then neither is on its start.
+  // If an agent's goal is its start, swaps it with the next agent's goal. Afterwards neither goal
+  // is the start of its agent, because starts are distinct and goals are distinct.
   for (std::size_t k = 0; k < goals.size(); ++k)
     if (goals[k] == starts[k]) std::swap(goals[k], goals[(k + 1) % goals.size()]);
   std::vector<DrawnAgent> agents;

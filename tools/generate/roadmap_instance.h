@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Instances on roadmaps.
+// Generates instances on roadmaps.
 #pragma once
 
 #include <optional>
@@ -10,22 +10,24 @@
 
 namespace grove::detail {
 
-// A roadmap, and the prefixes of the ids of vertices for agents and for tasks.
+// A roadmap, and the vertices for agents and tasks, selected by prefixes of their ids.
 struct Site {
-  std::string name;  // file of the roadmap, for messages
+  std::string name;  // file of the roadmap, for error messages
   Roadmap roadmap;
-  // nullopt: agents are on dead ends, where they block no other agent, if there are enough of them,
-  // else on any vertices. Tasks are on the vertices that are not for agents, or on any if agents
-  // may be on any.
+  // Prefix of the ids of vertices for starts and goals. nullopt: dead ends if there are enough of
+  // them, because an agent there blocks no other agent; otherwise all vertices.
   std::optional<std::string> agents_on = {};
+  // Prefix of the ids of vertices for tasks. nullopt: all vertices that are not for agents; all
+  // vertices if agents can be on all.
   std::optional<std::string> tasks_on = {};
 };
 
-// Generates an instance with agents a0, a1, ... on distinct starts with distinct goals, none on its
-// own start if there are two vertices to choose from. Tasks t0, t1, ... are on distinct vertices
-// where no agent starts, each given to 1, 2 or 3 distinct agents. All are in the largest strongly
-// connected component of the roadmap. Throws InputError, which names the roadmap, if that component
-// has too few vertices, or if an agent would get more than kMaxTasksPerAgent tasks.
+// Generates an instance with agents a0, a1, ... and tasks t0, t1, .... Starts are distinct, goals
+// are distinct, and no goal is the start of the same agent if there are at least two vertices for
+// agents. Tasks are on distinct vertices where no agent starts. Each is assigned to 1, 2 or 3
+// distinct agents. All vertices are in the largest strongly connected component of the roadmap.
+// Throws InputError, which names the roadmap, if that component has too few vertices, or if an
+// agent would get more than kMaxTasksPerAgent tasks.
 Instance generate_instance(const Site& site, const InstanceRequest& request);
 
 }  // namespace grove::detail

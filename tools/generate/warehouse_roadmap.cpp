@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A warehouse roadmap. Aisles alternate in direction, and each cross aisle has two one-way lanes,
-// so robots meet head-on only at their bays. (Measured with 100 robots and 300 tasks: a plan within
-// 0.4 % of the bound after 0.1 s; with one two-way lane instead, 11 % after 10 s.)
+// A warehouse roadmap. Aisles alternate in direction, and each cross aisle has two one-way lanes.
+// Therefore robots meet head-on only on the roads to the bays. *Measured* with 100 robots and 300
+// tasks: the gap is 0.4 % after 0.1 s; with one two-way lane per cross aisle it is 11 % after 10 s.
 //
-// *Claim: strongly connected.* The southernmost lane leads east, the last aisle north, the
-// northernmost lane west and, because the number of aisles is even, the first aisle south: a ring.
-// Every other lane and aisle begins and ends on the ring, and bays have two-way roads.
+// *Claim: the roadmap is strongly connected.* *Proof.* The southernmost lane leads east, the last
+// aisle north, the northernmost lane west and, because the number of aisles is even, the first
+// aisle south. Together they form a directed ring. Every other lane and aisle starts and ends on
+// the ring, and the roads to the bays are two-way.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,7 +36,7 @@ class Warehouse {
  private:
   using Street = std::vector<int>;  // vertices from south to north or from west to east
 
-  // Order from south to north: a cross aisle, slots, a cross aisle, ..., a cross aisle.
+  // From south to north, cross aisles alternate with rows of slots; both ends are cross aisles.
   void add_streets() {
     const int blocks = request_.cross_aisles - 1;
     int slot = 0;
@@ -87,7 +88,7 @@ class Warehouse {
     join(with_gates, leads_east, request_.aisle_spacing / (request_.bays + 1));
   }
 
-  // Returns the vertex of the lane that has the road to the bay.
+  // Adds a bay and its two-way road. Returns the vertex on the lane at which this road starts.
   int add_bay(double aisle, double y, double north_of_lane) {
     const double x = aisle * request_.aisle_spacing;
     const int gate = add_vertex(fmt::format("g{}", bays_), x, y);
@@ -117,7 +118,7 @@ class Warehouse {
 }  // namespace
 
 Time steps_of(double metres, double metres_per_step) {
-  constexpr double kNoise = 1e-9;  // rounding errors: 0.3 m are three steps of 0.1 m
+  constexpr double kNoise = 1e-9;  // for rounding errors, so that 0.3 m take 3 steps of 0.1 m
   return std::max<Time>(static_cast<Time>(std::ceil(metres / metres_per_step - kNoise)), 1);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Operations that all ranks execute together, and which may fail on some of them.
+// Collective operations that can fail on some ranks.
 #pragma once
 
 #include <CLI/Error.hpp>
@@ -13,20 +13,20 @@
 namespace grove::detail {
 
 // Collective. Calls `what` on each rank. If it throws InputError or CLI::ValidationError on any
-// rank, throws on all: the same exception if all threw the same text, else InputError with the text
-// of the first rank that failed, and its number.
+// rank, this function throws on all ranks: the same exception if it threw the same text on all
+// ranks, otherwise InputError with the number and the text of the first rank that failed.
 void collective(const MpiSession& session, const std::function<void()>& what);
 
-// Agreement of all ranks that their command lines are valid. Command lines and programs may differ
-// between ranks, and a rank that ended by itself would leave the others waiting.
+// Lets all ranks agree whether their command lines are valid. Command lines and programs can differ
+// between ranks, and if only one rank ended, the others would wait for it for ever.
 class CommandLines {
  public:
-  // `session` must outlive this.
+  // `session` must outlive this object.
   explicit CommandLines(const MpiSession& session) : session_(session) {}
 
-  // Each rank calls one of the two first. A command that starts calls accept(), which throws
-  // InputError if another rank refused. After accept(), refuse() has no effect, so only errors that
-  // occur on all ranks may end the command.
+  // Collective. Each rank must first call either accept(), when its command starts, or refuse().
+  // accept() throws InputError if another rank refused. After accept(), refuse() has no effect, so
+  // only errors that occur on all ranks can end the command then.
   void accept();
   void refuse(const std::string& why);
 
@@ -35,8 +35,8 @@ class CommandLines {
   bool agreed_ = false;
 };
 
-// Collective. Throws InputError unless `mine` is the same on all ranks. `what`: for instance
-// "version".
+// Collective. Throws InputError unless `mine` is equal on all ranks. `what`: its name in the error
+// message, for instance "version".
 void require_same(const MpiSession& session, const std::string& what, const std::string& mine);
 
 }  // namespace grove::detail

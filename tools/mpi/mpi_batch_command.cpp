@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove-mpi batch: solves many instances with all ranks.
+// grove-mpi batch: solves many instances in parallel on all ranks.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -68,8 +68,8 @@ struct BatchArguments {
   bool quiet = false;
 };
 
-// Returns the settings that results depend on. The memory limit counts only if it was given;
-// otherwise the machine determines it.
+// Returns the settings on which results depend. They include the memory limit only if the user set
+// it; otherwise it depends on the machine.
 batch::Settings settings_of(const CLI::App& app, const BatchArguments& a) {
   std::string options;
   const auto add = [&](const char* option, const std::string& value, const std::string& defaults) {
@@ -142,7 +142,7 @@ class BatchRun {
            .idle = [] { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }},
           master_ ? &*master_ : nullptr);
       client.run();
-    } catch (const InputError& error) {  // the other ranks would wait for ever
+    } catch (const InputError& error) {  // abort, because the other ranks would wait for ever
       print_error(*app_.get_parent(), error.what());
       session_.abort(kExitBadInput);
     }
@@ -177,7 +177,8 @@ class BatchRun {
                                   other->outcome.version));
   }
 
-  // Throws on all ranks of the group if `error` is not "" on one of them: the text of the first.
+  // Collective over the group. If `error` is not "" on some rank, throws std::runtime_error on all
+  // ranks, with the text of the first such rank.
   void agree(const std::string& error, const Poll& poll) {
     for (const std::string& text : batch::gather(*agreement_, error, poll))
       if (!text.empty()) throw std::runtime_error(text);
@@ -250,7 +251,7 @@ class BatchRun {
     try {
       return solve_distributed(problem, options_, limits, *search_, observer, poll);
     } catch (const std::exception& error) {
-      if (farm_->ranks() == 1) throw;  // a row
+      if (farm_->ranks() == 1) throw;  // the caller writes a row with the error
       print_error(*app_.get_parent(),
                   fmt::format("internal failure of rank {}: {}", session_.rank(), error.what()));
       session_.abort(kExitInternalFailure);  // the other ranks would wait for ever

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The subcommands of grove-mpi; see commands.h of common. All ranks run the same command. `session`
-// and `lines` must outlive the parsing of the command line.
+// The subcommands of grove-mpi; see tools/common/commands.h. All ranks run the same command.
+// `session` and `lines` must outlive the parsing of the command line.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove-mpi solve: like grove solve, with all ranks.
+// grove-mpi solve: solves one instance with all ranks.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -44,7 +44,7 @@ Examples:
   mpirun -np 2 grove-mpi solve benchmarks/data/first.cts.json
   mpirun -np 4 --map-by node --bind-to none grove-mpi solve INSTANCE.cts.json --threads 16)";
 
-// The run of one rank.
+// This rank's part of the run.
 class Run {
  public:
   Run(const CLI::App& app, SolveArguments& arguments, MpiSession& session)
@@ -95,7 +95,8 @@ class Run {
     if (!checkpoints_.resumed) ProofOutput::remove_old(a_);
   }
 
-  // Call it when no rank can refuse its input any more, so that all of them release the memory.
+  // Collective. Call it when no rank can refuse its input any more, because only ranks that end
+  // normally release the shared memory.
   void share_memory() {
     const auto [bytes, zero_bytes] = SharedProblem::need(loaded_->instance);
     memory_ = session_.share(bytes, zero_bytes);
@@ -135,7 +136,8 @@ class Run {
                        proof_->log() == nullptr ? "" : ", and without a certificate");
   }
 
-  // Either all ranks search or none does; rank 0 then reports.
+  // Collective. If presolve on some rank already gives the answer, no rank searches and rank 0
+  // returns the answer; otherwise all ranks search.
   std::optional<Solution> solve_with(RunObserver& observer) {
     const SharedProblem shared(loaded_->instance, limits_, options_.threads, *memory_);
     const Problem& problem = shared.problem();
@@ -154,8 +156,9 @@ class Run {
     return solution;
   }
 
-  // An error here concerns only one rank, and the others would wait for it for ever: for instance
-  // rank 0 may find a checkpoint to be damaged when it reads the nodes.
+  // Searches with all ranks. Aborts the job on an error, because it may occur on this rank only,
+  // and the other ranks would wait for ever. For example, rank 0 may find that the nodes in a
+  // checkpoint are damaged.
   std::optional<Solution> solve_by_all(const Problem& problem, RunObserver& observer) {
     try {
       const auto network = session_.connect();
@@ -186,7 +189,7 @@ class Run {
   std::unique_ptr<LogFormat> log_;
   std::optional<ProofOutput> proof_;
   std::unique_ptr<SharedMemory> memory_;
-  std::string unrecorded_;    // why a part of the certificate is missing; on rank 0
+  std::string unrecorded_;    // on rank 0: why a part of the certificate is missing; "" if none is
   std::int64_t missing_ = 0;  // number of ranks that did not respond at the end
 };
 

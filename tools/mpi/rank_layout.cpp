@@ -22,7 +22,7 @@ std::vector<int> gather_numbers(const MpiSession& session, int mine) {
   return all;
 }
 
-// Collective. Returns on how many ranks `mine` is the same as on this one.
+// Collective. Returns the number of ranks on which `mine` equals that of this rank.
 int count_equal(const MpiSession& session, const std::string& mine) {
   return static_cast<int>(std::ranges::count(session.gather(mine), mine));
 }

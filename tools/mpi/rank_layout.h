@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ranks, hosts, threads and cores of a run with several processes.
+// Hosts, threads and cores of the ranks of an MPI run.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -12,28 +12,31 @@
 
 namespace grove::detail {
 
-// Data of all ranks, by rank.
+// The vectors have one element per rank.
 struct RankLayout {
   std::vector<std::string> hosts;
   std::vector<int> threads;
-  std::vector<int> cores;             // cores that the rank may use
-  std::vector<int> host_cores;        // all cores of its host
-  std::vector<std::string> unshared;  // why its host has no shared memory; "" if it has
-  std::size_t shared_bytes = 0;       // size of the shared memory on the host of this rank
+  std::vector<int> cores;             // number of cores that the rank may use
+  std::vector<int> host_cores;        // number of all cores of the rank's host
+  std::vector<std::string> unshared;  // why the rank has no shared memory; "" if it has
+  std::size_t shared_bytes = 0;       // size of the shared memory on this rank's host
 };
 
-// Collective. If --threads or --memory-limit is not given, sets it to this rank's share of the
-// cores that several ranks may use, and of the memory of its host.
+// Collective. If --threads is not given, sets it to this rank's share of its cores, which several
+// ranks may use. If --memory-limit is not given, sets it to this rank's share of the memory of its
+// host.
 void divide_machine(const CLI::App& app, SolveArguments& arguments, const MpiSession& session);
 
-// Collective. Gathers the layout; this rank has `threads` threads and the shared memory `memory`.
+// Collective. Gathers the layout of all ranks. `threads`, `memory`: threads and shared memory of
+// this rank.
 RankLayout gather_rank_layout(const MpiSession& session, std::int64_t threads,
                               const SharedMemory& memory);
 
-// Returns "2 each on 4 ranks, 2 hosts", with ", 912 MB shared" if memory is shared.
+// Returns the workers for the log, "2 each on 4 ranks, 2 hosts", followed by ", 912 MB shared" if
+// ranks share memory.
 std::string workers_text(const RankLayout& layout);
-// Returns warnings about hosts with more threads than cores, which slow each other down, with
-// unused cores, and without shared memory.
+// Returns warnings about hosts with more threads than cores (the threads slow each other down),
+// hosts with unused cores, and hosts without shared memory.
 std::vector<std::string> warnings(const RankLayout& layout);
 
 }  // namespace grove::detail

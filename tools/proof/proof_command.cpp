@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove proof trim FILE.
+// grove proof: commands for certificates.
 #include <fmt/format.h>
 
 #include <memory>

@@ -14,7 +14,7 @@
 namespace grove::detail {
 namespace {
 
-// A field "new_tasks/3/agents/0", split into "new_tasks", 3 and "/agents/0".
+// The parts of an error's field; for "new_tasks/3/agents/0", "new_tasks", 3 and "/agents/0".
 struct Field {
   explicit Field(const std::string& text) {
     const std::size_t slash = text.find('/');
@@ -83,7 +83,7 @@ void RequestedChange::block_on_roadmap(const std::string& text, const Roadmap& r
     blocked_.push_back({"--blocked", text});
     return;
   }
-  // Ids may contain commas, so each comma is tried.
+  // Ids can contain commas, so each comma is tried as the separator.
   for (std::size_t comma = text.find(','); comma != std::string::npos;
        comma = text.find(',', comma + 1)) {
     const auto from = roadmap.vertex(text.substr(0, comma));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Changes of an instance during the execution of its plan, from the command line.
+// Command-line options for changes to an instance during the execution of its plan.
 #pragma once
 
 #include <string>
@@ -11,25 +11,27 @@
 
 namespace grove::detail {
 
-// Values of the options.
+// Values of the command-line options.
 struct ChangeArguments {
   std::vector<std::string> late;       // ROBOT=STEPS
-  std::vector<std::string> new_tasks;  // files
-  std::vector<std::string> dropped;    // tasks
-  std::vector<std::string> blocked;    // X,Y; or A and A,B on a roadmap
+  std::vector<std::string> new_tasks;  // files of new tasks
+  std::vector<std::string> dropped;    // ids of tasks
+  std::vector<std::string> blocked;    // cell X,Y; on a roadmap vertex A or road A,B
 };
 
-// Throw CLI::ValidationError, which names the option and its value, and InputError for files.
+// Returns the delays of the late robots. Throws CLI::ValidationError, which names the option and
+// its value.
 std::vector<Delay> late_robots(const ChangeArguments& arguments, const Instance& instance);
 
-// The change, with the source of each part.
+// The requested change, with the option or file from which each part comes.
 class RequestedChange {
  public:
-  // `instance` is the instance to change.
+  // `instance` is the instance to change. Throws CLI::ValidationError for bad values, and
+  // InputError for bad files.
   RequestedChange(const ChangeArguments& arguments, const Instance& instance);
 
   const InstanceChange& change() const { return change_; }
-  // Rethrows an error of apply() as an error of the command line or of a file.
+  // Throws an error of apply() as an error in the option or file that requested the refused part.
   [[noreturn]] void refuse(const InstanceError& error) const;
 
  private:
@@ -39,8 +41,8 @@ class RequestedChange {
 
   InstanceChange change_;
   struct Source {
-    std::string where;  // file or option
-    std::string what;   // place in the file, or the option's value
+    std::string where;  // name of the file or option
+    std::string what;   // place in the file, or value of the option
   };
   std::vector<Source> new_tasks_, dropped_, blocked_, closed_roads_;  // same order as in the change
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove replan INSTANCE PLAN --at T: the remaining instance at time T, and a new plan of it.
+// grove replan: computes the remainder of an instance at a time of its plan, and a new plan for it.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -93,14 +93,15 @@ class Replanning {
   }
 
  private:
-  // Returns the plan. If it is without following, so will be the new one.
+  // Reads the plan. If it has no following conflicts by its own claim, forbids them in the instance
+  // and therefore in the new plan.
   Plan read_plan() {
     Solution driven = read_plan_to_execute(a_.plan, loaded_.instance).solution;
     if (!driven.may_follow) loaded_.instance = loaded_.instance.without_following();
     return *std::move(driven.plan);
   }
 
-  // At later times nothing changes, because all robots rest.
+  // Refuses a time after the end of the plan, because all robots then rest for ever.
   void require_time_of_plan() const {
     const Time end = std::ranges::max(plan_.agents, {}, &AgentPlan::cost).cost;
     if (a_.at > end)
@@ -132,7 +133,8 @@ class Replanning {
 
   void name_outputs() {
     SolveArguments& s = a_.solve;
-    s.keeps_cheaper = a_.commit == 0;  // an existing plan need not begin with the committed steps
+    // With --commit, a cheaper existing plan may not start with the committed steps.
+    s.keeps_cheaper = a_.commit == 0;
     const std::string stem = fmt::format("{}-at-{}", s.instance.stem(), a_.at);
     const bool names_plan = !s.output.empty() && is_name_of_file(s.output);
     const bool names_instance = !a_.output_instance.empty();
@@ -149,7 +151,7 @@ class Replanning {
     return output != kStandardOutput && (!fs::exists(output) || fs::is_regular_file(output));
   }
 
-  // Returns "hall" for "hall.plan.json" and "hall.cts.json".
+  // Returns the path without its suffix: "hall" for "hall.plan.json" and "hall.cts.json".
   static std::string stem_of(const fs::path& file) {
     const std::string name = file.string();
     for (const std::string_view suffix : {kPlanSuffix, kInstanceSuffix, ".json"})
@@ -173,7 +175,9 @@ class Replanning {
     }
   }
 
-  // Returns the file beside the instance for a map with blocked places; "" if nothing is blocked.
+  // Returns the path, beside the new instance, for its map; "" if the new instance uses the map
+  // file of the old one. It needs a new file if places are blocked, or if the old instance has no
+  // map file.
   fs::path changed_map() const {
     if (a_.change.blocked.empty() && !loaded_.map_path.empty()) return {};
     return stem_of(a_.output_instance) +
@@ -198,7 +202,7 @@ class Replanning {
     write_file_atomically(a_.output_instance, text);
   }
 
-  // Reports that existing plans of the replaced file are not plans of the new one.
+  // Reports that plans for the replaced file are not valid for the new one.
   static void report_replaced(const fs::path& file, const std::string& what) {
     print_to_stderr(fmt::format(
         "grove: {} had another {} and was replaced; plans of that one are not valid for this one; "
@@ -206,7 +210,8 @@ class Replanning {
         file.string(), what));
   }
 
-  // The bound then is that of a more constrained instance: see docs/engineers.md.
+  // Reports agents whose destination is now the end of the old plan. The lower bound then holds for
+  // this more constrained instance; see docs/engineers.md.
   static void report_ends_of_old_plan(const Solution& solution) {
     const auto ends = solution.stats.texts.find("ends_of_old_plan");
     if (ends == solution.stats.texts.end()) return;

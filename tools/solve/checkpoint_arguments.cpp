@@ -32,7 +32,8 @@ void make_folder(const std::filesystem::path& folder) {
   require_writable(checkpoint_file(folder));
 }
 
-// Prevents that two runs in one folder overwrite each other's checkpoints.
+// Locks the folder, so that two runs do not overwrite each other's checkpoints. Warns if the file
+// system supports no locks.
 FileLock lock_folder(const std::filesystem::path& folder) {
   FileLock lock(folder / "checkpoint.lock");
   if (!lock.is_held())
@@ -43,13 +44,13 @@ FileLock lock_folder(const std::filesystem::path& folder) {
   return lock;
 }
 
-// Whether the file is complete: incumbent files are synced to disk only after they are renamed, so
-// a crash of the machine may truncate one.
+// Returns whether the plan file is complete. A crash of the machine can truncate an incumbent file,
+// because it is flushed to disk only after it has been renamed.
 bool is_whole(const std::filesystem::path& plan) {
   return read_text(plan).ends_with("}\n");
 }
 
-// Starts from the better one of the start plan and the plan that an earlier run left.
+// Replaces the start plan in `options` by the incumbent of an earlier run if that is cheaper.
 void start_from_incumbent(const std::filesystem::path& file, const Instance& instance,
                           SolveOptions& options) {
   if (!std::filesystem::exists(file)) return;
@@ -98,7 +99,7 @@ CheckpointFolder prepare_checkpoints(const CheckpointArguments& a, const Instanc
     std::filesystem::remove(a.incumbent_file());
     return folder;
   }
-  if (found) {  // before the plan, because this checks that the checkpoint is of this instance
+  if (found) {  // before the incumbent, because this checks that the checkpoint fits the instance
     const Policy policy = options.policy == Policy::kFixed ? Policy::kFixed : Policy::kFree;
     folder.resumed = std::make_unique<CheckpointReader>(a.directory, fingerprint(instance), policy);
     options.resume = folder.resumed.get();

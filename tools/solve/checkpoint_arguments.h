@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checkpoint options of the command line, and resuming from a checkpoint.
+// Command-line options for writing checkpoints and resuming from them.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -16,29 +16,31 @@ namespace grove::detail {
 
 struct CheckpointArguments {
   std::filesystem::path directory;
-  double interval_s = 600;
-  std::string resume;  // "" if not given
+  double interval_s = 600;  // between two checkpoints, seconds
+  std::string resume;       // "auto", "never", or "" if not given
 
-  // File of the best plan so far, written before the plan is announced; "" without checkpoints.
+  // Returns the file for the incumbent, which is written before the incumbent is announced; ""
+  // without checkpoints.
   std::filesystem::path incumbent_file() const {
     return directory.empty() ? directory : directory / "incumbent.plan.json";
   }
 };
 
-// `arguments` must outlive the parsing of the command line.
+// Adds --checkpoint, --checkpoint-interval and --resume. `arguments` must outlive the parsing of
+// the command line.
 void add_checkpoint_options(CLI::App& app, CheckpointArguments& arguments);
 
-// Resources that a run holds until its end.
+// Resources for checkpoints that a run must keep until its end.
 struct CheckpointFolder {
   std::optional<FileLock> lock;               // nullopt without checkpoints
-  std::unique_ptr<CheckpointReader> resumed;  // nullptr: a new search
+  std::unique_ptr<CheckpointReader> resumed;  // nullptr: the run starts a new search
 };
 
-// Creates and locks the folder, checks that a checkpoint can be written there, and sets `options`
-// so that the run writes checkpoints (also on SIGUSR1) and resumes from an existing one. Throws
-// InputError if a folder or file cannot be used, for instance because another run uses it, or if
-// there is a checkpoint and --resume is not given; CLI::ValidationError if the arguments contradict
-// each other.
+// Creates and locks the folder and checks that a checkpoint can be written there. Sets `options` so
+// that the run writes checkpoints (also on SIGUSR1) and, with --resume auto, resumes from an
+// existing checkpoint and starts from the incumbent of the earlier run. Does nothing without
+// --checkpoint. Throws InputError if the folder or a file in it cannot be used, for instance
+// because another run uses it, and if a checkpoint or incumbent exists but --resume is not given.
 CheckpointFolder prepare_checkpoints(const CheckpointArguments& arguments, const Instance& instance,
                                      SolveOptions& options);
 

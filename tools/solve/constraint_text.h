@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Conflicts and constraints of constraint trees as text.
+// Converts conflicts and constraints to text, for logs of constraint trees.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace grove::detail {
 
-// "a1 and a4 on [3,4] at 7".
+// Returns, for example, "a1 and a4 on [3,4] at 7", where 7 is the time step.
 std::string text_of(const Conflict& conflict, const Instance& instance);
-// "a1 not on [3,4] at 7"; "" without an agent.
+// Returns, for example, "a1 not on [3,4] at 7"; "" if the constraint has no agent.
 std::string text_of(const AgentConstraint& constraint, const Instance& instance);
 
 }  // namespace grove::detail

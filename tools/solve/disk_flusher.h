@@ -9,9 +9,9 @@
 
 namespace grove::detail {
 
-// A thread that flushes files to disk (fsync), so that they survive a crash of the machine, without
-// delaying the caller; a flush may take seconds. The destructor waits for all of them. The first
-// failure is reported on standard error.
+// A background thread that flushes files to disk (fsync), so that they survive a crash of the
+// machine. The caller does not wait for a flush, which can take seconds. The destructor waits for
+// all flushes. The first failure is reported on standard error.
 class DiskFlusher {
  public:
   DiskFlusher() : thread_([this] { run(); }) {}
@@ -19,7 +19,7 @@ class DiskFlusher {
   DiskFlusher(const DiskFlusher&) = delete;
   DiskFlusher& operator=(const DiskFlusher&) = delete;
 
-  // Returns at once. Thread-safe.
+  // Requests a flush of `file` and returns immediately. Thread-safe.
   void flush(const std::filesystem::path& file);
 
  private:
@@ -29,7 +29,7 @@ class DiskFlusher {
   std::condition_variable news_;
   std::set<std::filesystem::path> waiting_;
   bool over_ = false;
-  std::thread thread_;  // last member, because it uses the others
+  std::thread thread_;  // last member, because the thread uses the other members
 };
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files with the incumbents of a run.
+// Writes the incumbents of a run to files.
 #pragma once
 
 #include <filesystem>
@@ -13,16 +13,16 @@
 
 namespace grove::detail {
 
-// Writes the k-th plan of a run to PREFIX-<k>.plan.json and the best plan to a file of its own,
-// each completely or not at all, and forwards all events to another observer. A plan is in its file
-// before that observer receives it, so it survives the process. Another thread flushes it to disk
-// soon after, because plans may come in quick succession and the search must not wait; then it
-// survives a crash of the machine. The destructor waits for the flush. The first failure is
-// reported on standard error; the run continues.
+// Writes the k-th incumbent of a run to PREFIX-<k>.plan.json and each incumbent to the file `best`,
+// which it replaces atomically. Forwards all events to the observer `next`. An incumbent is in its
+// files before `next` receives it, so it survives the end of the process. A background thread then
+// flushes the files to disk, so that they survive a crash of the machine; the search does not wait
+// for it, because incumbents can come in quick succession. The destructor waits for all flushes.
+// After the first failure, which is reported on standard error, it writes no more files.
 class IncumbentFiles : public ForwardingObserver {
  public:
-  // If `prefix` or `best` is empty, these files are not written. `instance` and `next` must outlive
-  // this.
+  // If `prefix` is "", it writes no numbered files; if `best` is "", no file with the best plan.
+  // `instance` and `next` must outlive this object.
   IncumbentFiles(std::string prefix, std::filesystem::path best, const Instance& instance,
                  Omega omega, RunObserver& next)
       : ForwardingObserver(next),
@@ -31,11 +31,12 @@ class IncumbentFiles : public ForwardingObserver {
         instance_(instance),
         omega_(omega) {}
 
-  // Returns the file of the k-th plan, k >= 1.
+  // Returns the file for the k-th incumbent, k >= 1.
   static std::filesystem::path file(const std::string& prefix, int k);
-  // Removes files that an earlier run with this prefix left.
+  // Removes the files of an earlier run with this prefix: those numbered from 1 without a gap.
   static void remove_old(const std::string& prefix);
-  // Whether `path` could be one of the files; no other file of the run may have such a path.
+  // Returns whether `path` is PREFIX-<k>.plan.json for some k. A different file of the run must not
+  // have such a path.
   static bool may_be_file(const std::string& prefix, const std::filesystem::path& path);
 
   void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override;
@@ -50,7 +51,7 @@ class IncumbentFiles : public ForwardingObserver {
   const Omega omega_;
   int written_ = 0;
   bool failed_ = false;
-  std::optional<DiskFlusher> flusher_;  // created with the first plan
+  std::optional<DiskFlusher> flusher_;  // created when the first incumbent is written
 };
 
 }  // namespace grove::detail

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// File names may contain any bytes; invalid UTF-8 must not fail.
+// Replaces invalid UTF-8 instead of throwing, because file names can contain any bytes.
 std::string line_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -34,7 +34,7 @@ Json cost_json(std::optional<Cost> cost) {
   return cost ? Json(*cost) : Json();
 }
 
-// (cost - lower bound) / lower bound; null without a cost and if it would be infinite.
+// Returns (cost - lower_bound) / lower_bound; null without a cost and if the gap is infinite.
 Json gap_json(std::optional<Cost> cost, Cost lower_bound) {
   if (!cost) return {};
   if (*cost == lower_bound) return 0;
@@ -93,7 +93,7 @@ Json memory_json(const MemoryUse& memory) {
           {"dependencies", megabytes_json(memory.groups)}};
 }
 
-// Columns with one entry per rank; null if unknown.
+// Returns an object of arrays with one entry per rank; an entry is null if unknown.
 Json ranks_json(const RunStatistics& statistics) {
   Json json{{"nodes", Json::array()},           {"open", Json::array()},
             {"lower_bound", Json::array()},     {"memory_mb", Json::array()},

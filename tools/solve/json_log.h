@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// JSON log of a run: one object per line, with its kind in the key "event". docs/command-line.md
-// lists events and keys.
+// Writes the log of a run as JSON Lines: one object per line, whose key "event" states its kind.
+// docs/command-line.md lists the events and their keys.
 #pragma once
 
 #include "tools/solve/log_format.h"
@@ -26,7 +26,7 @@ class JsonLog : public LogFormat {
 
  private:
   LogSink sink_;
-  const Instance* instance_ = nullptr;  // from head(); outlives the log
+  const Instance* instance_ = nullptr;  // set by head(); outlives the log
 };
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Events of a log, independent of its format.
+// Interface of log formats, and the events that they write.
 #pragma once
 
 #include <cstddef>
@@ -16,52 +16,54 @@
 
 namespace grove::detail {
 
-// Written before the search: instance and options. The instance outlives the log.
+// Instance and options, logged before the search. The instance must outlive the log.
 struct LogHead {
   const LoadedInstance& loaded;
-  std::string instance;  // as given by the user
+  std::string instance;  // name, as the user gave it
   std::string options;   // options that were given, as on the command line
   std::string method;    // "" for Grove's own search
-  std::string workers;   // "2" threads or "4 ranks of 2"
+  std::string workers;   // number of threads ("2"), or ranks and threads ("2 each on 4 ranks, ...")
   bool deterministic = false;
 };
 
-// Progress of the run, and what happened since the previous row.
+// Progress of the run and events since the previous row.
 struct LogRow {
-  RunEvent event = RunEvent::kProgress;   // the most important one since then
-  PlanSource source = PlanSource::kTree;  // of a kIncumbent
+  RunEvent event = RunEvent::kProgress;   // most important event since the previous row
+  PlanSource source = PlanSource::kTree;  // source of the incumbent if event is kIncumbent
   Progress progress;
   double seconds = 0;            // since the start of the program
-  std::size_t memory_bytes = 0;  // current
-  // Rise of the lower bound since the previous row, by its cause; docs/command-line.md.
+  std::size_t memory_bytes = 0;  // current resident memory of this process
+  // Rise of the lower bound since the previous row, by cause; docs/command-line.md lists the
+  // causes.
   std::map<std::string_view, Cost> raised_by = {};
 };
 
+// Result of the run, logged at its end.
 struct LogEnd {
   const Solution& solution;
   std::string plan_file;
   std::string proof_file;    // "" if no certificate was requested
-  std::optional<Cost> kept;  // cost of the plan in the plan file, if the file was not changed
-  bool is_lost = false;      // whether the plan file could not be written
+  std::optional<Cost> kept;  // cost of the existing plan if the plan file was left unchanged
+  bool is_lost = false;      // true if the plan file could not be written
 };
 
-// Writes each event as lines. One thread at a time.
+// Writes the events of a run. One thread at a time.
 class LogFormat {
  public:
   virtual ~LogFormat() = default;
 
   virtual void head(const LogHead& head) = 0;
   virtual void warning(std::string_view text) = 0;
-  // The run resumes from this checkpoint.
+  // Reports that the run resumes from this checkpoint.
   virtual void resumed(const CheckpointHeader& checkpoint) = 0;
   virtual void row(const LogRow& row) = 0;
-  // The same between rows; if it is shown, the next output overwrites it.
+  // Shows the progress between rows on a terminal. The next output overwrites it.
   virtual void progress(const LogRow& /*row*/) {}
-  // Counts of the search, and nodes of the trees: only in formats for programs.
+  // Statistics of the search and nodes of the trees. Only machine-readable formats write them.
   virtual void statistics(const RunStatistics& /*statistics*/, double /*seconds*/) {}
   virtual void root(const RootRow& /*row*/, double /*seconds*/) {}
   virtual void node(const NodeRow& /*row*/, double /*seconds*/) {}
-  // As in RunObserver.
+  // See RunObserver::on_infeasible() and on_note().
   virtual void infeasible(std::string_view reason) = 0;
   virtual void note(std::string_view text, double seconds) = 0;
   virtual void checkpoint(const CheckpointReport& report, double seconds) = 0;

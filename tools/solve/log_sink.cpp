@@ -35,7 +35,8 @@ void LogSink::warn_if_log_hidden(std::string_view text) const {
   if (!screen_) print_to_stderr(fmt::format("grove: warning: {}", text));
 }
 
-// Closes a log that cannot be written, with a warning on standard error; the run continues.
+// Writes a line. Returns false, after a warning on standard error, if that fails; the caller then
+// closes this output and the run continues.
 bool LogSink::write(std::FILE* file, std::string_view text, const char* name) {
   std::fprintf(file, "%.*s\n", static_cast<int>(text.size()), text.data());
   if (std::fflush(file) == 0 && std::ferror(file) == 0) return true;

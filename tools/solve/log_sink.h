@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Output of a log: screen and file.
+// Output of a log to screen and file.
 #pragma once
 
 #include <cstdio>
@@ -10,16 +10,16 @@
 namespace grove::detail {
 
 // Writes lines to the screen, to a file, to both or to neither. On a terminal it also shows a
-// progress line, which the next line overwrites.
+// progress line, which the next output overwrites.
 class LogSink {
  public:
-  // `screen`: stdout or stderr; nullptr: no screen. `file`: "" for no file; throws InputError if it
-  // cannot be opened. `may_show_progress`: false under mpirun, whose programs see a terminal even
-  // if there is none.
+  // `screen`: stdout, stderr, or nullptr for no screen. `file`: "" for no file.
+  // `may_show_progress`: false under mpirun, because its processes see a terminal even if there is
+  // none. Throws InputError if the file cannot be opened.
   LogSink(std::FILE* screen, const std::filesystem::path& file, bool may_show_progress = true);
 
   void line(std::string_view text = "");
-  // Prints the text on standard error unless the screen shows the log.
+  // Prints a warning on standard error unless the log is on the screen.
   void warn_if_log_hidden(std::string_view text) const;
   bool shows_progress() const { return shows_progress_; }
   void progress(std::string_view text);

@@ -15,7 +15,8 @@
 namespace grove::detail {
 namespace {
 
-// Returns nullopt unless the file has a plan that is valid for the instance.
+// Returns the cost of the plan in the file. Returns nullopt if the file has no plan that is valid
+// for the instance.
 std::optional<Cost> valid_cost(const std::filesystem::path& file, const Instance& instance) {
   if (!std::filesystem::is_regular_file(file)) return std::nullopt;
   try {
@@ -37,7 +38,7 @@ void require_no_contradiction(const std::filesystem::path& file, Cost cost,
 }
 
 void print(const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);  // run_program() reports a failure at the end
+  std::fwrite(text.data(), 1, text.size(), stdout);  // run_program() checks stdout for errors
 }
 
 std::string ending_text(const Solution& solution) {

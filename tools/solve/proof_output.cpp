@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns the files of all ranks and runs.
+// Returns the part files of all ranks and runs for the certificate `file`.
 std::vector<fs::path> parts_of(const fs::path& file) {
   const std::string prefix = file.filename().string() + ".part-";
   std::vector<fs::path> parts;
@@ -50,11 +50,11 @@ std::string text_of(const Certificate& made, Cost claimed) {
   return text;
 }
 
-// A checker repeats a joint search, state by state and time by time, about 10 times as slowly as
-// Grove. Up to this number of states it takes seconds at most.
+// The checker repeats a joint search over all states and times, and takes about 10 times as long as
+// Grove. Up to this number of joint states it takes at most seconds.
 constexpr std::int64_t kFewJointStates = 1000;
 
-// Whether the joint states of the instance are at most kFewJointStates.
+// Returns whether the instance has at most kFewJointStates joint states.
 bool has_few_joint_states(const Instance& instance) {
   std::int64_t states = 1;
   for (AgentIndex agent = 0; agent < instance.agent_count() && states <= kFewJointStates; ++agent)

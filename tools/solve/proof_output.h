@@ -13,28 +13,29 @@
 
 namespace grove::detail {
 
-// During the run each rank records its part in files beside the certificate, FILE.part-RANK-N. If
-// the run can be resumed from its checkpoint, these files remain; together with those of later runs
-// they make one certificate.
+// During the run each rank logs its part of the proof to FILE.part-RANK-N beside the certificate
+// FILE. At the end one rank combines the parts of all ranks. With --checkpoint the parts remain,
+// because the certificate of a later run that resumes needs them too.
 class ProofOutput {
  public:
-  // Does nothing without --proof. Throws InputError, and CLI::ValidationError for runs that cannot
-  // write a certificate.
+  // Without --proof the object does nothing. Throws InputError if the part cannot be written, and
+  // CLI::ValidationError for methods that cannot log a proof.
   explicit ProofOutput(const SolveArguments& arguments, int rank = 0);
-  // Removes files of earlier runs unless this run resumes from a checkpoint. With several ranks,
-  // one calls it, before any rank creates its own files. Throws InputError if no certificate can be
-  // written.
+  // Removes the parts of earlier runs. Call it on one rank, before any rank constructs its
+  // ProofOutput, and only if the run does not resume from a checkpoint. Throws InputError if the
+  // certificate cannot be written.
   static void remove_old(const SolveArguments& arguments);
 
-  // For SolveOptions; nullptr without --proof.
+  // The log for SolveOptions; nullptr without --proof.
   ProofLog* log() { return recorder_.get(); }
-  // Ends this rank's part. Returns "", or the reason why a part of it is not in its file.
+  // Flushes this rank's part. Returns "", or the reason why the part is incomplete.
   std::string close();
-  // Call it after all ranks have closed their parts, with the return value of close() of a rank
-  // that failed. Makes the certificate and records in the solution's statistics what it proves. It
-  // does not throw, because the plan must be written first; see failure().
+  // Makes the certificate from the parts and records in the solution's statistics what it proves.
+  // Call it on one rank after all ranks have called close(). `failure`: the result of close() on a
+  // rank that failed, otherwise "". Errors do not throw but set failure(), because the plan must
+  // still be written.
   void write(const Instance& instance, Solution& solution, const std::string& failure);
-  // Why there is no certificate; "" if there is one, or without --proof.
+  // The reason why no certificate was written; "" if one was, or without --proof.
   const std::string& failure() const { return failure_; }
 
  private:
@@ -42,7 +43,7 @@ class ProofOutput {
   void remove_parts() const;
 
   const std::filesystem::path file_;
-  const bool may_resume_;  // a later run may resume
+  const bool may_resume_;  // a later run can resume from the checkpoint of this run
   std::unique_ptr<ProofRecorder> recorder_;
   std::string failure_;
 };

@@ -9,11 +9,11 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kRowInterval_s = 0.5;  // minimum; later a tenth of the elapsed time
+constexpr double kRowInterval_s = 0.5;  // minimum; the interval is a tenth of the elapsed time
 constexpr double kProgressInterval_s = 0.1;
 constexpr std::int64_t kRowInterval_nodes = 1000;
 
-// Importance of an event: rarer events are more important.
+// Returns the importance of an event for its row; rarer events are more important.
 int importance(RunEvent event) {
   switch (event) {
     case RunEvent::kIncumbent:
@@ -45,7 +45,7 @@ void RunLog::on_incumbent(const Plan&, PlanSource source, const Progress&) {
 
 void RunLog::on_event(RunEvent event, const Progress& told) {
   Progress progress = told;
-  if (progress.lower_bound >= kInfiniteCost) progress.lower_bound = bound_;  // there is no plan
+  if (progress.lower_bound >= kInfiniteCost) progress.lower_bound = bound_;  // infeasible
   if (importance(event) > importance(event_)) event_ = event;
   note_bound(progress);
   const bool news = event_ != RunEvent::kProgress || progress.nodes_expanded != last_row_nodes_;
@@ -60,7 +60,8 @@ void RunLog::on_bound_beside(BoundSource by) {
   raises_ = by;
 }
 
-// Other ranks report only how many nodes they expanded, not the outcome.
+// Attributes a rise of the bound to its cause. For expansions on other ranks the cause is only
+// known as "tree", because they report the number of expanded nodes but not the expansions.
 void RunLog::note_bound(const Progress& progress) {
   if (progress.lower_bound <= bound_) return;
   const bool is_known = receives_expansions_ || progress.nodes_expanded == 0;
@@ -108,7 +109,8 @@ void RunLog::on_root(const NodePtr& root) {
   if (const auto row = tree_.root(*root)) format_.root(*row, seconds());
 }
 
-// If the bound rises now, this expansion is the cause: it completed the last node of the old bound.
+// If the bound rises after this expansion, the expansion is the cause, because it completed the
+// last live node with the old bound.
 void RunLog::on_expanded(const NodePtr& node, const Expansion& expansion, int worker) {
   receives_expansions_ = true;
   last_work_ = expansion.branching ? "branching" : expansion.plan ? last_work_ : "wdg";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Turns the events of a run into rows of its log.
+// Converts the events of a run to rows of its log.
 #pragma once
 
 #include <chrono>
@@ -13,17 +13,17 @@
 
 namespace grove::detail {
 
-// Decides when a row is due: at once for a plan and for nodes of --log-tree. Other rows are
-// throttled by the clock or, with `by_work`, by the number of expanded nodes, so that two runs of
-// the same search log the same rows.
+// Writes a row immediately for each incumbent and for each node that --log-tree selects. Throttles
+// other rows by the clock or, with Options::by_work, by the number of expanded nodes, so that two
+// runs of a deterministic search log the same rows.
 class RunLog : public RunObserver {
  public:
   using Clock = std::chrono::steady_clock;
   struct Options {
-    bool by_work = false;
-    // Intervals between rows grow with time, up to this.
+    bool by_work = false;  // throttle by expanded nodes instead of by time
+    // The interval between throttled rows grows with the elapsed time, up to this many seconds.
     double longest_interval_s = std::numeric_limits<double>::infinity();
-    std::int64_t tree_nodes = 0;  // number of expanded nodes to log
+    std::int64_t tree_nodes = 0;  // log the first `tree_nodes` expanded nodes
   };
   RunLog(LogFormat& format, Clock::time_point start, const Options& options);
 
@@ -33,7 +33,7 @@ class RunLog : public RunObserver {
   void on_infeasible(std::string_view reason) override;
   void on_note(std::string_view note) override;
   void on_checkpoint(const CheckpointReport& report) override;
-  // True with rows that are due by time or work, and at the end.
+  // Returns true after an event that made a throttled row due, and after the end of the run.
   bool wants_statistics() override { return std::exchange(statistics_are_due_, false); }
   void on_statistics(const RunStatistics& statistics) override;
   void on_root(const NodePtr& root) override;
@@ -54,10 +54,10 @@ class RunLog : public RunObserver {
   bool has_rows_ = false;
   bool statistics_are_due_ = false;
   bool receives_expansions_ = false;
-  std::optional<BoundSource> raises_;     // source of the next rise of the bound, if not the tree
-  RunEvent event_ = RunEvent::kProgress;  // the most important one since the last row
+  std::optional<BoundSource> raises_;     // source of the next rise of the bound; nullopt: the tree
+  RunEvent event_ = RunEvent::kProgress;  // most important event since the last row
   PlanSource source_ = PlanSource::kTree;
-  std::string_view last_work_ = "individual";   // cause of a rise of the bound by the tree
+  std::string_view last_work_ = "individual";   // cause to log if the tree raises the bound
   std::map<std::string_view, Cost> raised_by_;  // rise since the last row, by cause
   Cost bound_ = 0;
   double last_row_s_ = 0;

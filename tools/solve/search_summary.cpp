@@ -23,13 +23,13 @@ class Counts {
     const auto it = counts_.find(name);
     return it == counts_.end() ? 0 : it->second;
   }
-  // "8123 queries, 45 % cache hits"
+  // Returns, for example, "8123 queries, 45 % cache hits".
   std::string queries(const std::string& what) const {
     const std::int64_t queries = (*this)[what + "_queries"];
     return fmt::format("{} queries, {} % cache hits", queries,
                        100 * (*this)[what + "_hits"] / std::max<std::int64_t>(queries, 1));
   }
-  // "vertex-edge 812, target 44", in descending order.
+  // Returns the number of splits of each kind in descending order, "vertex-edge 812, target 44".
   std::string splits() const {
     constexpr std::string_view kPrefix = "splits_";
     std::vector<std::pair<std::int64_t, std::string>> kinds;
@@ -44,7 +44,8 @@ class Counts {
     }
     return text.empty() ? "none" : text;
   }
-  // "tree 1, prioritized 2 (cost -14)": number of incumbents and the decrease of cost, by source.
+  // Returns the number of incumbents and their total decrease of the cost for each source,
+  // "tree 1, prioritized 2 (cost -14)".
   std::string plans() const {
     std::string text;
     for (const std::string_view source : kPlanSources) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Statistics of a search for --verbose.
+// Statistics of a search as text, for --verbose.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace grove::detail {
 
-// Returns lines for the end of a log; none if `stats` has no counts of the search.
+// Returns lines for the end of the text log; none if `stats` has no counts of a tree search.
 std::vector<std::string> search_summary(const Stats& stats);
 
 }  // namespace grove::detail

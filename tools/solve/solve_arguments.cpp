@@ -67,7 +67,8 @@ std::string check_technique(const std::string& text) {
   return fmt::format("found '{}'; expected one of {}", text, names_of_techniques());
 }
 
-// No technique is off by default any more.
+// Returns the error message for --with, which older versions accepted. All techniques are now on by
+// default.
 std::string refuse_with(const std::string& text) {
   if (std::ranges::find(kRemovedTechniques, text) != kRemovedTechniques.end())
     return fmt::format("the technique '{}' was removed from Grove; expected no --with", text);
@@ -164,11 +165,11 @@ void add_method_options(CLI::App& app, SolveArguments& a) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Validator(check_technique, ""));
-  app.add_option("--with")  // not in the help
+  app.add_option("--with")  // without a description, so hidden from the help
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Validator(refuse_with, ""));
-  app.add_option("--tune", a.tune)  // experimental, so not in the help
+  app.add_option("--tune", a.tune)  // experimental, so hidden from the help
       ->type_name("NAME=VALUE")
       ->delimiter(',')
       ->allow_extra_args(false)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Command-line options of a solve.
+// Command-line options of `grove solve` and of other commands that search.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -17,7 +17,7 @@
 
 namespace grove::detail {
 
-// Defaults of the library, so that programs and the command line have the same.
+// The library's defaults, which are also those of the command line.
 inline const Options kDefaults;
 
 struct SolveArguments {
@@ -39,7 +39,7 @@ struct SolveArguments {
   std::string incumbents;
   std::filesystem::path proof;
   std::filesystem::path output;
-  bool keeps_cheaper = true;  // keep a valid plan of lower cost that is already in the output file
+  bool keeps_cheaper = true;  // keep a cheaper valid plan that is already in the output file
   bool require_plan = false;
   std::filesystem::path log;
   std::string log_format = "text";
@@ -48,10 +48,10 @@ struct SolveArguments {
   bool quiet = false;
 };
 
-// Adds the options of a search (names, ranges, defaults, help) and those that name the files of a
-// run. `arguments` must outlive the parsing of the command line.
+// Add groups of options with their ranges, defaults and help: search, tolerance, method, files of
+// the run, log. The search options include tolerance and method. `arguments` must outlive the
+// parsing of the command line.
 void add_search_options(CLI::App& app, SolveArguments& arguments);
-// Parts of the above: tolerance; method.
 void add_omega_option(CLI::App& app, SolveArguments& arguments);
 void add_method_options(CLI::App& app, SolveArguments& arguments);
 void add_file_options(CLI::App& app, SolveArguments& arguments);
@@ -59,22 +59,23 @@ void add_log_options(CLI::App& app, SolveArguments& arguments);
 // Adds all options of `grove solve`.
 void add_solve_options(CLI::App& app, SolveArguments& arguments);
 
-// Returns the options that were given, as command-line words.
+// Returns the options that the user gave, as a command line without positional arguments.
 std::string options_text(const CLI::App& app);
 
 Method method_of(const SolveArguments& arguments);
 Omega omega_of(const SolveArguments& arguments);
-// Returns the options for the engine, without the start plan. Throws CLI::ValidationError if they
-// contradict each other.
+// Returns the options for the engine, without the start plan. Throws CLI::ValidationError if the
+// arguments contradict each other.
 SolveOptions solve_options(const SolveArguments& arguments);
-// The same for programs that run the search of solve() themselves; not for all methods.
+// Like solve_options(), for programs that run a single search themselves. Also throws
+// CLI::ValidationError for the methods that adapt CTS-CBS (is_adaptation()).
 SolveOptions options_of_one_search(const SolveArguments& arguments);
-// Throws InputError if the method does not support this instance, or this start plan.
+// Throws InputError if the method does not support the instance, or the start plan in `options`.
 void require_fit(const SolveArguments& arguments, const Instance& instance,
                  const SolveOptions& options);
-// Loads the instance within the memory limit of the search; see InstanceArguments::load.
+// Loads the instance within the memory limit of the run; see InstanceArguments::load().
 LoadedInstance load(SolveArguments& arguments, bool speaks = true);
-// Sets the limits of a run that started at `start`.
+// Sets the time limit (from `start`), the memory limit and the interrupt flag of a run.
 void set_limits(Limits& limits, const SolveArguments& arguments,
                 std::chrono::steady_clock::time_point start);
 

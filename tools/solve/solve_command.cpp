@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove solve: reads an instance, writes a log and a plan file.
+// grove solve: solves an instance and writes a log and a plan file.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <memory>

@@ -23,9 +23,11 @@ namespace grove::detail {
 namespace {
 
 constexpr const char* kJsonLines = "jsonl";
-constexpr double kMaxRowInterval_s = 10;  // max. interval of rows for programs, as a sign of life
+// Maximum interval between rows of JSON logs, so that a program sees that the run is alive.
+constexpr double kMaxRowInterval_s = 10;
 
-// The adaptations of CTS-CBS are those of the paper only with its policy.
+// Returns the method for the log, for the adaptations of CTS-CBS with the policy, because they are
+// those of the paper only with --policy fixed.
 std::string method_text(const SolveArguments& a) {
   const bool is_fixed = solve_options(a).policy == Policy::kFixed;
   if (!is_adaptation(method_of(a))) return a.method;
@@ -33,7 +35,8 @@ std::string method_text(const SolveArguments& a) {
                      is_fixed ? "fixed" : "free (the paper's: --policy fixed)");
 }
 
-// Refuses a prefix of --incumbents whose files could replace another file of the run.
+// Refuses a prefix of --incumbents with which an incumbent could overwrite another file of the run.
+// Removes the incumbents of an earlier run with this prefix.
 void prepare_incumbents(const SolveArguments& a, const LoadedInstance& loaded) {
   for (const auto& file : {a.output, a.log, a.proof, a.start, a.instance.path(), loaded.map_path})
     if (IncumbentFiles::may_be_file(a.incumbents, file))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everything around a solve: its files, its log, data of the run in the plan file, its end.
+// Steps before and after a search: output files, log, data of the run in the plan file, failures.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -17,35 +17,38 @@
 
 namespace grove::detail {
 
-// Checks before the search that the files of a run can be written and are distinct; gives the plan
-// file its default name. No other run may write these files while the returned locks exist. Throws
-// InputError.
+// Sets the default name of the plan file, checks that the output files of the run are distinct and
+// can be written, and locks them. While the returned locks exist, no other run of Grove can write
+// the files; see OutputLock. Throws InputError.
 [[nodiscard]] std::vector<OutputLock> prepare_outputs(SolveArguments& arguments,
                                                       const LoadedInstance& loaded);
 
-// Opens the log on the screen and in its file, in the requested format. `may_show_progress`: see
-// LogSink. Throws InputError.
+// Opens the log in the requested format, on the screen and in its file. `may_show_progress`: see
+// LogSink. Throws InputError if the file cannot be opened, and CLI::ValidationError if --log-tree
+// is given with the text format.
 std::unique_ptr<LogFormat> open_log(const SolveArguments& arguments, bool may_show_progress = true);
 
-// Returns the observer that writes rows of a run that started at `start`.
+// Returns the observer that writes the rows of a run that started at `start`. `log` must outlive
+// it.
 RunLog rows_of(LogFormat& log, const SolveArguments& arguments,
                std::chrono::steady_clock::time_point start);
 
-// `workers`: "2" threads or "4 ranks of 2".
+// Returns the head of the log. `workers`: see LogHead.
 LogHead head_of(const CLI::App& app, const SolveArguments& arguments, const LoadedInstance& loaded,
                 const std::string& workers);
 
-// Adds data of the run that started at `start` to the statistics in the plan file.
+// Adds times, memory, options and version of a run that started at `start` to the statistics in
+// `solution`, which write_plan() stores.
 void add_run_facts(Solution& solution, const CLI::App& app, const SolveArguments& arguments,
                    std::chrono::steady_clock::time_point start);
 
-// Writes the plan file and the end of the log, and important results on standard error; see
-// plan_output.h. Returns "", or the reason why the plan could not be written, for instance a full
-// disk. The log has its summary even then.
+// Writes the plan file and the end of the log, and reports a missing plan on standard error; see
+// plan_output.h. Returns "", or the reason why the plan file could not be written, for instance a
+// full disk; the log then still gets its summary.
 [[nodiscard]] std::string finish_run(const SolveArguments& arguments, const Instance& instance,
                                      const Solution& solution, LogFormat& log);
-// Prints each failure that is not "" on standard error. Throws CommandFailed (exit code 1) if there
-// is any.
+// Prints each failure that is not "" on standard error. If any exists, throws CommandFailed with
+// exit code 1.
 void report_failures(const std::vector<std::string>& failures);
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plan files of earlier runs, as start plans and as existing output files.
+// Reads plan files of earlier runs, which serve as start plans or already exist as output files.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace grove::detail {
 
-// Reads the plan in the file, which must be valid for `instance`; other claims of the file (status,
-// bound) are ignored. Throws InputError if it is not valid.
+// Reads the plan in the file. Ignores the other claims of the file (status, bound). Throws
+// InputError if the file cannot be read or has no plan that is valid for `instance`.
 Plan read_valid_plan(const std::filesystem::path& path, const Instance& instance);
 
 }  // namespace grove::detail

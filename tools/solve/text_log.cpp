@@ -25,7 +25,8 @@ std::string count_text(int count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-// Returns counts of special items, such as " (2 turning, 1 idle)"; "" if there are none.
+// Returns the number of items with each trait, such as " (2 turning, 1 idle)"; "" if no item has
+// any.
 template <class Item>
 std::string traits_text(
     std::span<const Item> items,
@@ -89,7 +90,7 @@ char letter_of(const LogRow& row) {
   return ' ';
 }
 
-// The number of evicted nodes and of restarts.
+// Returns the number of evicted nodes and of restarts; "" if no node was evicted.
 std::string evicted_text(const Solution& solution) {
   const auto evicted = solution.stats.counts.find("nodes_evicted");
   if (evicted == solution.stats.counts.end() || evicted->second == 0) return "";

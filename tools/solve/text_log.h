@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Text log of a run, in the style of MIP solvers: head, table, summary.
+// Writes the log of a run as text in the style of MIP solvers: head, table, summary.
 #pragma once
 
 #include "tools/solve/log_format.h"
@@ -9,7 +9,7 @@ namespace grove::detail {
 
 class TextLog : public LogFormat {
  public:
-  // `verbose`: the summary has statistics of the search.
+  // `verbose`: add statistics of the search to the summary.
   TextLog(LogSink sink, double time_limit_s, bool verbose)
       : sink_(std::move(sink)), time_limit_s_(time_limit_s), verbose_(verbose) {}
 

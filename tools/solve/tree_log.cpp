@@ -13,7 +13,7 @@ std::optional<RootRow> TreeLog::root(const Node& root) {
   return RootRow{add(root), root};
 }
 
-// A node without a number was created before a checkpoint from which this run resumed.
+// A node has no number if it was created before the checkpoint from which this run resumed.
 std::optional<NodeRow> TreeLog::expanded(const Node& node, const Expansion& expansion, int worker) {
   if (left_ == 0) return std::nullopt;
   const auto known = numbers_.find(&node);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A planner for many robots on one map. Input: the map, and for each robot the poses that it must
-// visit. Output: for each robot a path with times. Re-plans after each input once all inputs have
-// arrived.
+// A ROS 2 node that plans for many robots on one map. Its inputs are the map and, for each robot,
+// the poses that the robot must visit. Its output is a path with times for each robot. Once all
+// inputs have arrived, the node plans, and it re-plans after each further input.
 #include <chrono>
 #include <cmath>
 #include <geometry_msgs/msg/pose_array.hpp>
@@ -49,7 +49,8 @@ class GroveNode : public rclcpp::Node {
         omega_(declare_parameter("omega", 0.05)),
         time_limit_(declare_parameter("time_limit", 1.0)),
         robots_(declare_parameter("robots", std::vector<std::string>())) {
-    // The map server publishes the map once; transient_local delivers it to later subscribers too.
+    // The map server publishes the map once. With transient_local, later subscribers receive it
+    // too.
     const auto kept = rclcpp::QoS(1).transient_local();
     map_in_ = create_subscription<OccupancyGrid>(
         "map", kept, [this](OccupancyGrid::ConstSharedPtr map) { take_map(*map); });
@@ -83,7 +84,7 @@ class GroveNode : public rclcpp::Node {
     plan();
   }
 
-  // Throws grove::InvalidArgument.
+  // Returns the errands of all robots. Throws grove::InvalidArgument for poses in a wrong frame.
   std::vector<Errand> errands() const {
     std::vector<Errand> found;
     for (const std::string& robot : robots_) {
@@ -141,7 +142,7 @@ class GroveNode : public rclcpp::Node {
 
   std::string frame_;
   std::optional<PlanningGrid> grid_;
-  std::map<std::string, PoseArray> visits_;  // by robot, if received
+  std::map<std::string, PoseArray> visits_;  // by robot; only for robots whose poses have arrived
   rclcpp::Subscription<OccupancyGrid>::SharedPtr map_in_;
   std::vector<rclcpp::Subscription<PoseArray>::SharedPtr> visits_in_;
   std::map<std::string, rclcpp::Publisher<Path>::SharedPtr> paths_out_;

@@ -6,8 +6,8 @@
 namespace grove_ros2 {
 namespace {
 
-// Transforms a position between the map's frame and the frame of the map's origin. The yaw is not
-// transformed.
+// Transforms the position of a pose from the map's frame to the frame of `origin`; does not
+// transform the yaw.
 Pose2d from_origin(const Pose2d& origin, const Pose2d& pose) {
   const double x = pose.x - origin.x;
   const double y = pose.y - origin.y;
@@ -34,8 +34,8 @@ int pixels_a_cell(const Occupancy& map, double cell) {
   return pixels < 1 ? 1 : static_cast<int>(pixels);
 }
 
-// The first row of Grove's grid is the top row. The remaining pixels at the upper and right edge
-// belong to no cell.
+// Returns the grid of cells of `pixels` x `pixels` pixels. The first row of Grove's grid is the top
+// row. Pixels that are left over at the upper and right edge belong to no cell.
 grove::World world_of(const Occupancy& map, int pixels, int occupied_from) {
   const int width = map.width / pixels;
   const int height = map.height / pixels;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Converts an occupancy grid and poses in metres to a Grove instance, and its plan to poses with
-// times. Independent of ROS, so that it can be tested without ROS.
+// Converts an occupancy grid and poses in metres to a Grove instance, and a plan to poses with
+// times. Does not depend on ROS, so that it can be tested without ROS.
 #pragma once
 
 #include <cstdint>
@@ -17,39 +17,42 @@ struct Pose2d {
   double yaw = 0;
 };
 
-// As in nav_msgs/OccupancyGrid: row by row from the bottom; 0: free, 100: occupied, -1: unknown.
+// An occupancy grid as in nav_msgs/OccupancyGrid. `data` has the pixels row by row from the bottom,
+// from 0 (free) to 100 (occupied); -1 is unknown.
 struct Occupancy {
   int width = 0;
   int height = 0;
   double resolution = 0;  // metres per pixel
-  Pose2d origin;          // the lower left corner of pixel (0, 0)
+  Pose2d origin;          // lower left corner of pixel (0, 0)
   std::vector<std::int8_t> data;
 };
 
-// Places of one robot: it starts at the first, visits the ones between in any order, and ends at
-// the last.
+// The places of one robot. It starts at the first place, visits the places in between in any order,
+// and ends at the last place.
 struct Errand {
   std::string robot;
   std::vector<Pose2d> places;
 };
 
 struct Waypoint {
-  double seconds = 0;  // from the begin of the plan
+  double seconds = 0;  // since the start of the plan
   Pose2d pose;
 };
 
-// A grid of cells of a robot's size on the map. A cell is passable if all its pixels are free.
+// A grid of robot-sized cells on the map. A cell is passable if all its pixels are free; unknown
+// pixels are not.
 class PlanningGrid {
  public:
-  // `cell`: side of a cell in metres, rounded up to whole pixels. `occupied_from`: pixels of this
-  // value or more are occupied. Throws grove::InvalidArgument.
+  // `cell`: side of a cell in metres, rounded up to whole pixels. `occupied_from`: pixels with at
+  // least this value are occupied. Throws grove::InvalidArgument with field() "/map" or "/cell".
   PlanningGrid(const Occupancy& map, double cell, int occupied_from = 50);
 
   const grove::World& world() const { return world_; }
   double cell_size() const { return size_; }
-  // Throws grove::InvalidArgument with this `field` if the pose is not on a passable cell.
+  // Returns the cell that contains the pose. Throws grove::InvalidArgument with field() `field` if
+  // the pose is not on a passable cell.
   grove::Cell cell_at(const Pose2d& pose, const std::string& field) const;
-  // Returns the pose of the middle of a cell.
+  // Returns the pose at the centre of a cell.
   Pose2d middle(grove::Cell cell) const;
 
  private:
@@ -58,11 +61,12 @@ class PlanningGrid {
   grove::World world_;
 };
 
-// Throws grove::InvalidArgument.
+// Returns the instance for these errands. Throws grove::InvalidArgument with field() "ROBOT" or
+// "ROBOT/INDEX" for a robot without places and for a place that is not on a passable cell.
 grove::Instance instance_of(const PlanningGrid& grid, const std::vector<Errand>& errands);
 
-// Returns the robot's pose at each step. It faces its next move; after its last move, the direction
-// of that move.
+// Returns the robot's pose at each time step of the plan. The robot faces the direction of its next
+// move and, after its last move, the direction of that move.
 std::vector<Waypoint> waypoints(const PlanningGrid& grid, const grove::AgentPlan& plan,
                                 double seconds_per_step);
 

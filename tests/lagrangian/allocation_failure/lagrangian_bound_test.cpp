@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The Lagrangian bound with an allocation failure anywhere in a round: it ends, and its bound is
-// valid.
+// Allocation failures during the rounds of the Lagrangian bound: the computation ends, and its
+// bound is valid.
 #include "lagrangian/lagrangian_bound.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,8 @@ struct End {
   bool failed = false;
 };
 
-// `refuse_at`: number of the allocation within the jobs that fails, from 0; negative: none.
+// Runs the bound with one allocation failure. `refuse_at`: index of the failing allocation within
+// the jobs, from 0; negative: none.
 End run(TinyProblem& known, int refuse_at) {
   const Tuning tuning;
   const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);

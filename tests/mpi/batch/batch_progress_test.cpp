@@ -40,9 +40,9 @@ TEST(BatchState, CountsRows) {
 }
 
 TEST(SecondsLeft, ExtrapolateTheCurrentPace) {
-  const BatchState state = some_state();  // 6 s each, 94 left on 2 groups
+  const BatchState state = some_state();  // 6 s per instance, 94 left for 2 groups
   EXPECT_DOUBLE_EQ(*seconds_left(state), 282);
-  BatchState last = state;  // more groups than instances: one round
+  BatchState last = state;  // more groups than instances left: one round
   last.groups = 1000;
   EXPECT_DOUBLE_EQ(*seconds_left(last), 6);
   BatchState closing = state;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The task farm on simulated ranks, with delayed messages and a solver that only lets time pass.
+// Tests the task farm on simulated ranks, with delayed messages and a solver that only lets time
+// pass.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +38,7 @@ std::vector<Entry> numbered_entries(int count) {
   return entries;
 }
 
-// Inputs of a run, and its observed results.
+// Inputs and observed results of a run.
 struct Trial {
   int ranks = 1;
   int per_group = 1;
@@ -45,10 +46,10 @@ struct Trial {
   std::vector<Entry> entries = numbered_entries(11);
   double total_time_limit_s = std::numeric_limits<double>::infinity();
   double interrupt_at = std::numeric_limits<double>::infinity();
-  int interrupt_rank = -1;  // -1: all
+  int interrupt_rank = -1;  // -1: all ranks
   double kill_at = std::numeric_limits<double>::infinity();
-  std::function<double(int rank, const Entry&)> duration_s = {};  // default: random, up to 50 ms
-  std::function<void(int rank, const Entry&)> work = {};          // may throw
+  std::function<double(int rank, const Entry&)> duration_s = {};  // nullptr: random, up to 50 ms
+  std::function<void(int rank, const Entry&)> work = {};          // can throw
   std::function<void(const BatchState&)> watch = {};
 
   std::vector<Ids> begun = {};     // by rank
@@ -58,7 +59,7 @@ struct Trial {
   int left = 0;
 };
 
-// Forwards to another transport, and calls `look` before each message is sent.
+// Forwards to a different transport, and calls `look` before it sends a message.
 class WatchedTransport : public Transport {
  public:
   using Look = std::function<void(int to, const std::string& bytes)>;
@@ -77,7 +78,7 @@ class WatchedTransport : public Transport {
   const Look look_;
 };
 
-// One run of the program on all ranks.
+// Runs the program once on all ranks.
 class Simulation {
  public:
   Simulation(const std::string& folder, Trial& run)
@@ -126,7 +127,7 @@ class Simulation {
     if (now >= run_.kill_at) ranks_.kill();
   }
 
-  // main() of a rank.
+  // Corresponds to main() on one rank.
   void run_rank(int rank) {
     std::optional<ResultTable> table;
     std::optional<FarmMaster> master;
@@ -172,7 +173,7 @@ class Simulation {
   void solve(int rank, const Entry& entry, Row& row, const std::function<void()>& poll) {
     const bool leads = grouping_.rank_in_group(rank) == 0;
     if (rank == 0)
-      expect_on_disk(run_.finished[0]);  // rank 0 gets its own instances without a message
+      expect_on_disk(run_.finished[0]);  // rank 0 assigns itself instances without messages
     run_.begun[rank].push_back(entry.id);
     const double end = ranks_.now() + duration_s(rank, entry);
     while (ranks_.now() < end) {
@@ -190,7 +191,8 @@ class Simulation {
     row.outcome = {.status = "optimal", .solved = true, .cost = 3, .lower_bound = 3};
   }
 
-  // A row is on disk before its group gets the next instance.
+  // Expects that these rows are on disk, because a row must be there before its group gets the next
+  // instance.
   void expect_on_disk(const Ids& ids) const {
     const std::string text = file_content(fs::path(folder_) / "results.jsonl");
     for (const std::string& id : ids)
@@ -214,7 +216,7 @@ class Farms : public ::testing::Test {
     expect_groups_together(run);
   }
 
-  // The rows on disk, each of which must be the only one of its instance.
+  // Returns the rows on disk; each must be the only row of its instance.
   std::vector<Row> rows() const {
     const ResultTable table(folder_, TableOf::kPlans);
     std::vector<Row> rows = table.rows();
@@ -235,7 +237,7 @@ class Farms : public ::testing::Test {
     return ids;
   }
 
-  // Instances finished by the group leaders, which report them.
+  // Returns the instances that the group leaders, which report the rows, have finished.
   static Ids finished_by_leaders(const Trial& run) {
     Ids ids;
     for (int rank = 0; rank < run.ranks; rank += run.per_group)
@@ -250,7 +252,7 @@ class Farms : public ::testing::Test {
       EXPECT_EQ(run.begun[rank], run.begun[rank / run.per_group * run.per_group]);
   }
 
-  // Every number of ranks, every size of groups, several seeds.
+  // Calls `test` with runs for several numbers of ranks, group sizes and seeds.
   static void for_all(const std::function<void(Trial run)>& test) {
     for (const int ranks : {1, 2, 3, 7})
       for (const int per_group : {1, 2, 3})
@@ -290,7 +292,7 @@ TEST_F(Farms, SolveEveryInstanceOnce) {
     EXPECT_FALSE(run.end_state->ending);
     EXPECT_EQ(run.left, 0);
     EXPECT_FALSE(run.interrupted);
-    Trial again = run;  // there is nothing left to do
+    Trial again = run;  // with nothing left to solve
     simulate(again);
     EXPECT_EQ(finished_by_leaders(again), Ids{});
     EXPECT_EQ(again.end_state->solved, 11);
@@ -312,8 +314,8 @@ TEST_F(Farms, StopAfterASignalToOneRank) {
   }
 }
 
-// Two interrupts, of all ranks or of one. An instance in progress then has no row, and the same
-// command solves only the instances without a row.
+// Interrupts two runs, on all ranks or on one. An instance in progress then gets no row, and the
+// next run of the same command solves only the instances without a row.
 TEST_F(Farms, ResumeAfterInterrupts) {
   int interrupted = 0;
   for_all([&](Trial run) {
@@ -338,10 +340,11 @@ TEST_F(Farms, ResumeAfterInterrupts) {
     }
     EXPECT_EQ(finished, sorted_ids(run.entries));
   });
-  EXPECT_GT(interrupted, 24);  // otherwise this test is void
+  EXPECT_GT(interrupted, 24);  // the test must not be vacuous
 }
 
-// As SIGKILL does, at any point of the ranks, also inside a write (see the tests of tables).
+// Kills the ranks at any point, as SIGKILL does, even during a write (see the tests for result
+// tables).
 TEST_F(Farms, ResumeAfterBeingKilled) {
   for_all([&](Trial run) {
     use_new_folder();
@@ -418,7 +421,7 @@ TEST_F(Farms, AssignNothingAfterTheTotalTimeLimit) {
   });
 }
 
-// Rank 0 has its own work, or waits for a rank of its group. This must not delay the other groups.
+// Rank 0 solves an instance or waits for a rank of its group. This must not delay other groups.
 TEST_F(Farms, AssignInstancesWhileRankZeroIsBusy) {
   struct Case {
     int ranks, per_group, slow;
@@ -444,7 +447,8 @@ TEST_F(Farms, AssignInstancesInOrder) {
   EXPECT_EQ(run.begun[0], (Ids{"i0", "i1", "i2", "i3", "i4", "i5", "i6", "i7", "i8", "i9", "i10"}));
 }
 
-// If the table cannot be written, the instance in progress has not failed.
+// If the table cannot be written, the run ends, but the instance in progress does not count as
+// failed.
 TEST_F(Farms, EndIfTheTableCannotBeWritten) {
   for (const int ranks : {1, 3}) {
     use_new_folder();

@@ -9,7 +9,7 @@
 namespace grove::detail::batch {
 namespace gather_test {
 
-// Many rounds: a fast rank's message must not be counted in a slow rank's round.
+// In many rounds, a message from a fast rank must not be counted in the round of a slow rank.
 TEST(Gather, ReturnsTheTextsOfAllRanksOnEachRank) {
   for (const int count : {1, 2, 3, 7})
     for (const std::uint64_t seed : {1, 2, 3}) {

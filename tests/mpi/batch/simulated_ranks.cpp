@@ -37,7 +37,7 @@ void SimulatedRanks::run_rank(int rank, const std::function<void(int rank)>& bod
     }
     body(rank);
   } catch (const Killed&) {
-    // by kill()
+    // thrown because of kill()
   } catch (...) {
     if (!failure_) failure_ = std::current_exception();
     killed_ = true;

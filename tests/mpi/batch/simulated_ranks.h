@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Simulated ranks: they run ordinary blocking code in one process, on a simulated clock.
+// Simulated ranks that run ordinary blocking code in one process, on a simulated clock.
 #pragma once
 
 #include <condition_variable>
@@ -12,22 +12,22 @@
 
 namespace grove::detail::testing {
 
-// Each rank has a thread, but only one thread runs at a time, until it calls pause(): then the time
-// advances a little and some rank, chosen at random, runs. The same seed gives the same run.
+// Each rank has a thread, but only one thread runs at a time. When it calls pause(), the clock
+// advances a little and a randomly chosen rank continues. The same seed gives the same run.
 class SimulatedRanks {
  public:
   SimulatedRanks(int ranks, std::uint64_t seed);
 
-  // Runs `body(rank)` on all ranks. Rethrows an exception of a rank. Throws std::runtime_error if
-  // the run takes more than 1,000 simulated seconds.
+  // Runs `body(rank)` on all ranks. Rethrows an exception from any rank. Throws std::runtime_error
+  // if the run takes more than 1,000 simulated seconds.
   void run(const std::function<void(int rank)>& body);
-  // Only the running rank may call it, inside run().
+  // Lets another rank run. Only the running rank may call it, inside run().
   void pause(int rank);
   double now() const { return now_; }
 
-  // Called whenever the time has advanced. It may call kill().
+  // Called each time the clock has advanced. It may call kill().
   std::function<void(double now)> on_time;
-  // Ends all ranks at once, like SIGKILL: run() returns.
+  // Ends all ranks immediately, as SIGKILL would; run() then returns.
   void kill() { killed_ = true; }
   bool killed() const { return killed_; }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// MDDs compared with a time-expanded graph that is written only from the definitions of the
-// constraints. Two layered graphs have the same paths if no path of one ends early in the other
-// when both are read in parallel (as automata). So the test does not list paths, and maps, costs
-// and time windows may be larger than in mdd_test.cpp. FreeOrderSipp must find the least such cost.
-// GROVE_FUZZ_FACTOR multiplies the number of cases.
+// Compares MDDs with a time-expanded graph that is built only from the definitions of the
+// constraints. Both are layered graphs, which the test reads in parallel as automata: they have the
+// same paths if every continuation of a path in one is also possible in the other. The test
+// therefore does not list paths, and maps, costs and time windows can be larger than in
+// mdd_test.cpp. FreeOrderSipp must find the least cost that has a path. GROVE_FUZZ_FACTOR
+// multiplies the number of cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,15 +33,15 @@ using testing::grid_of;
 using testing::instance_of;
 
 constexpr std::size_t kPlenty = 1'000'000;
-constexpr std::size_t kMaxReadings = 20'000;  // of one pair of graphs
+constexpr std::size_t kMaxReadings = 20'000;  // per pair of graphs
 constexpr Time kMaxCost = 60;
 
-// State of an agent in the time-expanded graph, besides the time.
+// State of an agent in the time-expanded graph, without the time.
 struct AgentState {
   Cell cell;
-  std::uint32_t counted;  // stops
+  std::uint32_t counted;  // bit i: stop i is counted as visited
   int last;               // the stop counted last
-  Cell entered_from;      // inside a corridor: end and first inner cell of its entry
+  Cell entered_from;      // in a corridor: its end and first inner cell on entry
   Cell entered_at;
   friend auto operator<=>(const AgentState&, const AgentState&) = default;
 };
@@ -53,14 +54,14 @@ class TimeExpanded {
     layers_.push_back(std::move(first));
   }
 
-  // The least cost of a path. Returns nullopt if it is more than `most`.
+  // Returns the least cost of a path, or nullopt if that is more than `most`.
   std::optional<Time> min_cost(Time most) {
     for (Time cost = 0; cost <= most; ++cost)
       if (ends_at(cost)) return cost;
     return std::nullopt;
   }
 
-  // The nodes on paths of this cost, by time.
+  // Returns the nodes on paths of this cost, by time.
   std::vector<std::set<AgentState>> nodes_of(Time cost) {
     std::vector<std::set<AgentState>> useful(static_cast<std::size_t>(cost) + 1);
     grow(cost);
@@ -77,7 +78,7 @@ class TimeExpanded {
     return useful;
   }
 
-  // The states after a step from `from` that arrives at `time`.
+  // Returns the states after a step from `from` that arrives at `time`.
   std::vector<AgentState> steps(const AgentState& from, Time time) const {
     std::set<AgentState> there;
     if (!barred(from.cell, time)) arrive(from, there);
@@ -138,7 +139,7 @@ class TimeExpanded {
              !(from.entered_from == to && from.entered_at == from.cell);
     });
   }
-  // May the agent rest here for ever, having arrived at `time`?
+  // Returns whether an agent that arrived here at `time` may rest here for ever.
   bool may_end(const AgentState& m, Time time) const {
     if (std::popcount(m.counted) != static_cast<int>(problem_.stops.size())) return false;
     const Cell rest = problem_.destination ? *problem_.destination : problem_.stops[m.last];
@@ -156,15 +157,16 @@ class TimeExpanded {
   std::vector<std::set<AgentState>> layers_;
 };
 
-// Reads both graphs in parallel: a reading is the pair of node sets that one path leads to.
+// Reads both graphs in parallel. A reading is the pair of node sets, one per graph, that a path
+// prefix reaches.
 class SideBySide {
  public:
   SideBySide(const TimeExpanded& reference, const std::vector<std::set<AgentState>>& useful,
              const Mdd& graph)
       : reference_(reference), useful_(useful), graph_(graph) {}
 
-  // Describes the first difference; empty if the graphs have the same paths. Reads at most
-  // kMaxReadings pairs.
+  // Describes the first difference found, or returns "" if there is none. Examines at most
+  // kMaxReadings pairs of node sets.
   std::string difference() {
     const auto first = graph_.layer(0);
     std::map<Cell, Reading> begin;
@@ -213,7 +215,7 @@ class SideBySide {
   std::size_t readings_ = 0;
 };
 
-// Is each node on a path, and each successor listed once?
+// Returns whether each node is on a path and each successor is listed once.
 bool is_tidy(const Mdd& graph) {
   std::vector<bool> entered(static_cast<std::size_t>(graph.node_count()), false);
   for (auto node = graph.layer(0).first; node < graph.layer(0).end; ++node) entered[node] = true;
@@ -299,7 +301,7 @@ class Fuzzer {
   Grid random_grid() {
     static const std::vector<std::vector<std::string>> maps = {
         {"..@@@@..", "........", "..@@@@.."},                     // a long corridor
-        {"......", ".@@@@.", "......", ".@@@@.", "......"},       // an eight
+        {"......", ".@@@@.", "......", ".@@@@.", "......"},       // two loops, as in the digit 8
         {"....", ".@@.", "...."},                                 // a ring
         {"@....@", "@.@@.@", "......", "@@.@@@"},                 // loops and tails
         {".......", "@@@@@@.", ".......", ".@@@@@@", "......."},  // a snake
@@ -324,8 +326,8 @@ class Fuzzer {
     for (std::size_t i = 0; i < cells.size(); ++i)
       for (const Cell next : grid.neighbors(cells[i]))
         if (std::ranges::count(cells, next) == 0) cells.push_back(next);
-    // With 15 or more stops the cost-to-go is a graph of sequences instead of a table. Few of them
-    // are outside the prefix.
+    // With 15 or more stops the cost-to-go is a graph of sequences instead of a table. Only a few
+    // of these stops remain outside the prefix.
     const bool many = below(8) == 0 && cells.size() > 18;
     for (int n = many ? 15 + below(3) : below(6); n > 0; --n)
       if (const Cell cell = any_of(cells); std::ranges::count(problem_.stops, cell) == 0)
@@ -345,7 +347,8 @@ class Fuzzer {
         if (below(3) == 0) problem_.work.forbidden_next |= StopSet{1} << order[i];
   }
 
-  // Sorts by depth-first order, so that paths of this order do not cost too much.
+  // Sorts the stops in depth-first order of their cells, so that paths in this order do not cost
+  // too much.
   void order_nearest_first(Sequence& order) const {
     std::map<Cell, int> found{{problem_.start, 0}};
     std::vector<Cell> stack{problem_.start};
@@ -446,7 +449,7 @@ TEST(MddLanguage, EqualsThatOfTimeExpandedGraph) {
   EXPECT_GT(none, 2 * seeds);
 }
 
-// The cells of each layer, in order.
+// Returns the sorted cells of each layer.
 std::vector<std::vector<Cell>> cells_of(const Mdd& graph) {
   std::vector<std::vector<Cell>> layers;
   for (Time time = 0; !graph.empty() && time <= graph.cost(); ++time) {
@@ -458,8 +461,8 @@ std::vector<std::vector<Cell>> cells_of(const Mdd& graph) {
   return layers;
 }
 
-// Builds an MDD of a cost just outside the bound of the sequence graph, and compares it with an MDD
-// from a sequence graph that was widened beyond that cost.
+// Builds an MDD of cost outside_bound(), the bound of the sequence graph on the sequences that it
+// omits, and compares it with an MDD from a sequence graph that was widened beyond that cost.
 TEST(MddLanguage, IsCompleteAtTheBoundOfTheSequenceGraph) {
   int at_the_bound = 0;
   for (unsigned seed = 0; seed < 12; ++seed) {
@@ -494,7 +497,7 @@ TEST(MddLanguage, IsCompleteAtTheBoundOfTheSequenceGraph) {
   EXPECT_GT(at_the_bound, 10);
 }
 
-// SequenceStages may have been made with another CostToGo than that of its AgentStops.
+// SequenceStages can be constructed with a CostToGo other than that of its AgentStops.
 TEST(MddLanguage, WidensTheCostToGoOfItsStages) {
   const Grid grid = grid_of({"....."});
   FreeProblem problem{&grid, 0, {2}, 4, {}, {}};
@@ -508,8 +511,8 @@ TEST(MddLanguage, WidensTheCostToGoOfItsStages) {
             MddBuilder::Outcome::kBuilt);
 }
 
-// A limit that is reached at any time must neither count as a proof that there is no path nor leave
-// a part of the MDD.
+// Whenever a limit is reached, the result must neither count as a proof that there is no path nor
+// be a part of the MDD.
 TEST(MddLanguage, IsCompleteOrEmptyWhenALimitIsReached) {
   const Grid grid = grid_of(std::vector<std::string>(40, std::string(40, '.')));
   FreeProblem problem{&grid, 0, {}, 1599, {}, {}};

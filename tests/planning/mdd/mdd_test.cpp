@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MDDs, and whether the MDDs of two agents have collision-free paths, compared with enumeration of
+// Compares MDDs, and the search for collision-free paths in two agents' MDDs, with enumeration of
 // all paths. GROVE_FUZZ_FACTOR multiplies the number of cases.
 #include "planning/mdd.h"
 
@@ -32,7 +32,7 @@ using testing::StepRules;
 
 constexpr std::size_t kPlenty = 1'000'000;
 
-// All paths of the problem that have `cost` steps, the last of which is a move.
+// Enumerates all paths of the problem that take `cost` steps and end with a move.
 class Walks {
  public:
   Walks(const FreeProblem& problem, Time cost)
@@ -88,7 +88,7 @@ class Walks {
   Paths found_;
 };
 
-// Adds all paths of the MDD that begin with `path` and continue with `node`.
+// Adds all paths of the MDD that start with `path` and continue at `node`.
 void add_paths(const Mdd& graph, Mdd::NodeId node, Path& path, Paths& all) {
   path.push_back(graph.state(node));
   if (static_cast<Time>(path.size()) > graph.cost()) all.insert(path);
@@ -183,7 +183,8 @@ class Fuzzer {
     return std::make_unique<Agent>(problem);
   }
 
-  // Compares and returns all paths of the agent's least cost, or of that cost plus one or two.
+  // Compares all paths of a cost from the agent's least cost to that cost plus two, and returns
+  // them.
   Paths check(Agent& agent) {
     const std::optional<Time> least = free_reference_cost(agent.problem);
     if (!least) {
@@ -232,7 +233,7 @@ TEST(MddFuzz, AgreesWithEnumeration) {
   EXPECT_GT(collides, seeds / 4);
 }
 
-// Paths of least cost on an open 3 x 3 grid: 6 paths, but only one node for each cell.
+// There are 6 paths of least cost on an open 3 x 3 grid, but only one node for each cell.
 TEST(Mdd, MergesNodesThatDifferOnlyInThePast) {
   const Grid grid = grid_of({"...", "...", "..."});
   FreeProblem problem{&grid, 0, {}, 8, {}, {}};
@@ -257,7 +258,7 @@ TEST(Mdd, ReportsWhichLimitWasReached) {
             Outcome::kStopped);
 }
 
-// An agent rests on the path of another agent that arrives there later.
+// One agent rests on the path of an agent that arrives there later.
 TEST(JointMddSearch, CountsTheRestOfTheAgentThatFinishesFirst) {
   const Grid grid = grid_of({"....."});
   Agent rests(FreeProblem{&grid, 3, {}, 2, {}, {}});

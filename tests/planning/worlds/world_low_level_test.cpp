@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// FixedOrderSipp, FreeOrderSipp and MDDs on all worlds, compared with a search over all time steps:
-// grids and roads, agents that turn, tasks that take time, starts between places. GROVE_FUZZ_FACTOR
-// multiplies the number of cases.
+// Compares FixedOrderSipp, FreeOrderSipp and MDDs in all kinds of worlds with a search over all
+// time steps: grids and roads, turning agents, tasks with a duration, and starts between places.
+// GROVE_FUZZ_FACTOR multiplies the number of cases.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ class Fuzzer {
       if (::testing::Test::HasFatalFailure()) return;
     }
   }
-  // The current case, for failure messages.
+  // Returns a description of the current case, for failure messages.
   std::string text() const {
     std::string text = tiny_.to_text() + fmt::format("agent {}, prefix", agent_);
     for (const Stop stop : work_.prefix) text += fmt::format(" {}", stop);
@@ -65,7 +65,7 @@ class Fuzzer {
   int cases = 0;
   int delayed = 0;
   int infeasible = 0;
-  int late_finishes = 0;  // the finish differs from the last arrival
+  int late_finishes = 0;  // finish later than the last arrival
   std::map<std::string, int> by_world;
 
  private:
@@ -91,7 +91,7 @@ class Fuzzer {
     return work;
   }
 
-  // The cost-to-go as the search uses it, as a graph, or as a graph by direct legs.
+  // Returns the cost-to-go as the search uses it, as a graph, or as a graph by direct legs.
   CostToGo cost_to_go_of(const AgentStops& stops, const SequenceClass& work) {
     const CostToGo& given = stops.cost_to_go();
     switch (below(3)) {
@@ -186,7 +186,8 @@ class Fuzzer {
     return world;
   }
 
-  // The bound from single stops must not exceed the least cost, and equals it if there is one stop.
+  // The bound from single stops must not exceed the least cost, and must equal it if there is only
+  // one stop.
   void check_single_stops(const AgentStops& stops, std::optional<Time> expected) {
     intervals_.assign(constraints_);
     const Time least = single_stop_bound_.min_cost(stops, 0, Limits());
@@ -224,8 +225,8 @@ class Fuzzer {
     check_path(agent, path);
   }
 
-  // There must be an MDD of the least cost, a random path of which is valid, and none of lower
-  // cost.
+  // An MDD of the least cost must exist, and a random path of it must be valid. There must be no
+  // MDD of lower cost.
   void check_mdd(AgentIndex agent, SequenceStages& goals, Time cost) {
     using Outcome = MddBuilder::Outcome;
     Mdd paths;
@@ -288,7 +289,7 @@ TEST(WorldLowLevel, AgreesWithTimeExpandedSearch) {
   const int seeds = testing::fuzz_rounds(300);
   std::vector<int> all(static_cast<std::size_t>(seeds));
   std::iota(all.begin(), all.end(), 0);
-  all.push_back(3582);  // regression: gates of labels too late to rest postponed labels in time
+  all.push_back(3582);  // regression: a gate postponed labels in time to rest
   for (const int seed : all) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Fuzzer fuzzer(static_cast<unsigned>(seed));
@@ -300,7 +301,7 @@ TEST(WorldLowLevel, AgreesWithTimeExpandedSearch) {
     late_finishes += fuzzer.late_finishes;
     for (const auto& [world, count] : fuzzer.by_world) by_world[world] += count;
   }
-  // Most cases must be non-trivial.
+  // Enough cases must be non-trivial.
   EXPECT_GT(delayed, 2 * seeds);
   EXPECT_GT(infeasible, seeds / 2);
   EXPECT_GT(late_finishes, seeds / 4);

@@ -14,11 +14,11 @@ namespace {
 // State of an agent at one time.
 struct AgentState {
   Pose pose;
-  int at_work = -1;  // on this stop
+  int at_work = -1;  // index of the stop that it is executing; -1: none
   Time done = 0;
-  unsigned counted = 0;  // stops
+  unsigned counted = 0;  // bit i: stop i is counted as visited
   int last = -1;         // the stop counted last
-  Mouth mouth;           // entrance of the corridor it is in; none outside, or inside since time 0
+  Mouth mouth;           // entrance by which it entered its corridor; none: see StepRules
   Time arrival = 0;      // at its place; clamped to the time from which the rules no longer change
 
   auto key() const {
@@ -56,7 +56,7 @@ class Layers {
     return std::ranges::any_of(now_, [&](const AgentState& s) { return may_rest(s, time); });
   }
 
-  // Advances to `time`. Returns false if the reachable states no longer change.
+  // Advances to `time`. Returns false if the reachable states can no longer change.
   bool step(Time time) {
     next_.clear();
     for (const AgentState& s : now_) leave(s, time);

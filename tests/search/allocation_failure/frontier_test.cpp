@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The frontier when an allocation fails in the middle of an operation: no node is lost, and the
-// bound holds.
+// Tests the frontier when an allocation fails in the middle of an operation: no node is lost, and
+// the bound stays valid.
 #include "search/frontier.h"
 
 #include <gtest/gtest.h>
@@ -25,9 +25,9 @@ class ScarceFrontier : public ::testing::Test {
     return Node::root(trees_.back());
   }
 
-  // Applies `change` to a frontier with one open and one taken node, and lets each of its
-  // allocations fail in turn. After each failure `holds` must be true. Returns the number of
-  // failures.
+  // Applies `change` to frontiers with one open and one taken node, failing a different allocation
+  // each time until no allocation fails. After each failure `holds` must be true. Returns the
+  // number of failures.
   template <class NodeDelta, class Holds>
   int fail_everywhere(NodeDelta change, Holds holds) {
     for (int at = 0;; ++at) {
@@ -41,7 +41,7 @@ class ScarceFrontier : public ::testing::Test {
       } catch (const std::bad_alloc&) {
         testing::allocations_until_failure = -1;
         EXPECT_TRUE(holds(frontier)) << "failure " << at;
-        frontier.take();  // still usable
+        frontier.take();  // the frontier must remain usable
         continue;
       }
       testing::allocations_until_failure = -1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests of the benchmark workers, with a shell script in place of the solver.
+// Tests the benchmark workers with a shell script as a replacement for the solver.
 #include "tools/bench/bench_run.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ class Benches : public ::testing::Test {
     solver("cp '" + directory_.write("good", kPlan) + "' \"$plan\"");
   }
 
-  // Uses as solver a program that runs `script` when it is called to write "$plan".
+  // Sets a solver program that runs `script`, in which "$plan" is the plan file to write.
   void solver(const std::string& script) {
     options_.program =
         directory_.write("solver", "#!/bin/sh\nlog='" + (directory_ / "log") +
@@ -123,7 +123,7 @@ TEST_F(Benches, RunAllMethodsInstanceByInstance) {
 TEST_F(Benches, CountLatePlansAsUnsolved) {
   instances(1);
   methods(1);
-  methods_[0].settings.time_limit_s = 1e-6;  // the start of a process takes longer
+  methods_[0].settings.time_limit_s = 1e-6;  // the start of a process alone takes longer
   solver("cp '" + (directory_ / "good") + "' \"$plan\"");
   run();
   ASSERT_EQ(rows().size(), 1U);
@@ -179,7 +179,7 @@ TEST_F(Benches, KeepPlansOnRequest) {
   EXPECT_EQ(file_content(directory_ / "out/plans/m1/set/i.plan.json"), kPlan);
   EXPECT_EQ(rows()[1].plan_file, "plans/m1/set/i.plan.json");
   fs::remove(fs::path(options_.folder) / rows()[1].plan_file);
-  run();  // repeats the run whose plan is missing
+  run();  // repeats only the run whose plan is missing
   EXPECT_EQ(file_content(directory_ / "out/plans/m1/set/i.plan.json"), kPlan);
   EXPECT_EQ(rows().size(), 2U);
 }
@@ -207,11 +207,11 @@ TEST_F(Benches, CheckMethodSupportOnEachKindOfInstance) {
   solver("");
   check_method_support(instances_, methods_, options_);
   const std::string text = file_content(directory_ / "log");
-  ASSERT_EQ(split_lines(text).size(), 2U);  // 2 methods, each accepted at once
+  ASSERT_EQ(split_lines(text).size(), 2U);  // one call for each of 2 methods, accepted at once
   for (const std::string_view line : split_lines(text))
     EXPECT_NE(line.find(" --time-limit 0 "), std::string_view::npos) << line;
 
-  for (const char* other : {"exit 1", "kill $$"}) {  // not a refusal
+  for (const char* other : {"exit 1", "kill $$"}) {  // neither is a refusal
     solver(other);
     EXPECT_NO_THROW(check_method_support(instances_, methods_, options_));
   }

@@ -24,7 +24,8 @@ class Children : public ::testing::Test {
                       .cancelled = [cancelled] { return cancelled; },
                       .clock = [this] { return now_; }});
   }
-  // The end of a child that ends at the third poll, each poll `seconds` / 3 after the previous one.
+  // Runs a child that ends at the third poll, with polls `seconds` / 3 apart, and returns how it
+  // ended.
   ChildEnd run_for(double seconds) {
     const std::string go = directory_ / "go";
     EXPECT_EQ(::mkfifo(go.c_str(), 0600), 0);
@@ -53,7 +54,7 @@ TEST_F(Children, ReportExitCodeAndSignal) {
   end = run("kill -SEGV $$");
   EXPECT_EQ(end.kind, ChildEnd::Kind::kSignalled);
   EXPECT_EQ(end.code, SIGSEGV);
-  end = run("kill -KILL $$");  // not sent by Grove
+  end = run("kill -KILL $$");  // the signal does not come from Grove
   EXPECT_EQ(end.kind, ChildEnd::Kind::kSignalled);
 }
 
@@ -97,7 +98,7 @@ TEST_F(Children, ReportThatTheyCannotBeStarted) {
                std::system_error);
 }
 
-// Ctrl-C sends SIGINT only to the process group of the caller.
+// Ctrl-C must send SIGINT only to the process group of the caller, so each child has its own group.
 TEST_F(Children, HaveTheirOwnProcessGroup) {
   run("ps -o pgid= -p $$ | tr -d ' '; echo $$");
   const std::string said = file_content(directory_ / "said");
@@ -120,7 +121,7 @@ TEST_F(Children, DieWithTheirParent) {
   ::kill(parent, SIGKILL);
   ::waitpid(parent, nullptr, 0);
   EXPECT_GT(child, 0);
-  // The child holds the other end of the pipe while it runs.
+  // The child holds the other end of the pipe as long as it runs.
   from_child >> child;
   EXPECT_TRUE(from_child.eof());
 }

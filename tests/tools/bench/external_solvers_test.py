@@ -36,7 +36,7 @@ class ExternalSolverTests(Program):
         path.write_text(f"type octile\nheight {WIDTH}\nwidth {WIDTH}\nmap\n" + f"{letter * WIDTH}\n" * WIDTH)
 
     def add_scenario(self, name, agents, map_name="open.map"):
-        """Writes a scenario with one agent in each row, from the left to the right."""
+        """Writes a scenario with one agent in each row, which moves from the left to the right."""
         path = self.folder / "maps" / f"{name}.scen"
         path.write_text("version 1\n" + "".join(
             f"0\t{map_name}\t{WIDTH}\t{WIDTH}\t0\t{y}\t{WIDTH - 1}\t{y}\t7\n" for y in range(agents)))
@@ -52,7 +52,8 @@ class ExternalSolverTests(Program):
                 "--quiet", *more]
 
     def row_of(self, kind, *more, limit=5, adapter="fake.json"):
-        """Checks the row of Grove and returns that of the solver, for two agents; keeps the output in self.output."""
+        """Runs Grove and the solver with two agents, checks Grove's row and returns the solver's. Keeps the output
+        in self.output."""
         self.add_scenario("open-random-1", 3)
         self.output = self.run_well(*self.sweep(*more, solvers=[self.solver(kind, adapter)], limit=limit))
         rows = self.rows()
@@ -62,7 +63,7 @@ class ExternalSolverTests(Program):
         return rows["open-random-1-2", kind]
 
     def summary(self):
-        """Returns {method: {column: cell}} of the output."""
+        """Returns the summary table in the output as {method: {column: cell}}."""
         lines = self.output.splitlines()
         header = ["method", *lines[0].replace("median s", "median").split()[1:]]
         cells = [line.split() for line in lines[1:] if len(line.split()) == len(header) and ":" not in line]
@@ -73,7 +74,7 @@ class Solvers(ExternalSolverTests):
     def test_correct_solver_is_feasible_with_checked_cost(self):
         row = self.row_of("honest", "--keep-plans")
         self.assertEqual((row["status"], row["solved"], row["cost"], row["error"]), ("feasible", True, 14, None))
-        self.assertIsNone(row["lower_bound"])  # a claimed bound is not re-checked
+        self.assertIsNone(row["lower_bound"])  # claimed bounds are not checked
         self.assertEqual((row["claimed_cost"], row["claimed_lower_bound"], row["solver"]), (14, 14, "fake"))
         self.assertEqual(row["options"], "fake honest")
         seconds, *found = row["trace"].split(":")
@@ -141,8 +142,8 @@ class Solvers(ExternalSolverTests):
         self.assertEqual(self.summary()["planless"]["errors"], "0")
 
     def test_hanging_solver_is_killed_at_the_time_limit(self):
-        """Checks that a solver without a time limit option is killed at the limit, with its child processes."""
-        row = self.row_of("hangs", limit=4)  # enough time to start a child process
+        """Checks that a solver without a time limit option is killed at the limit, including its child processes."""
+        row = self.row_of("hangs", limit=4)  # enough time for the solver to start a child process
         self.assertEqual((row["status"], row["solved"], row["error"], row["runtime_s"]),
                          ("unknown", False, "time limit", 4))
         child = (self.folder / "pids").read_text()
@@ -200,7 +201,7 @@ class Solvers(ExternalSolverTests):
 
 class Commands(ExternalSolverTests):
     def test_command_with_placeholders(self):
-        """Runs Grove as an external solver: it receives instances, and its bounds are claims."""
+        """Runs Grove itself as an external solver: it receives instances, and its bounds count as claims."""
         self.add_scenario("open-random-1", 3)
         command = f"self={GROVE} solve {{instance}} --output {{output}} --time-limit {{time_limit}} --quiet"
         self.run_well(*self.sweep(solvers=[command], agents="1:3:2"))
@@ -214,7 +215,7 @@ class Commands(ExternalSolverTests):
         self.assertEqual((row["problem"], row["solved"], row["status"]), ("cts", True, "feasible"))
 
     def test_instances_are_converted_to_other_formats(self):
-        """Runs a solver that reads other instance formats: grove convert, then grove solve."""
+        """Runs a solver that reads other instance formats: `grove convert` followed by `grove solve`."""
         (self.folder / "reader.sh").write_text(
             f'#!/bin/sh\n"{GROVE}" convert "$1" "$3/i.cts.json" --from "$4" &&\n'
             f'"{GROVE}" solve "$3/i.cts.json" --output "$2" --omega 0 --quiet --threads 1\n')
@@ -249,7 +250,8 @@ class Commands(ExternalSolverTests):
         self.assertTrue(self.rows()["open-random-1-2", "honest"]["solved"])
 
     def test_all_solvers_receive_the_same_map(self):
-        """Checks that ambiguous terrain letters are rewritten to the way Grove reads them."""
+        """Checks that maps with ambiguous terrain letters are rewritten, so that all solvers read them as Grove
+        does."""
         self.add_map("maps/swamp.map", "S")
         self.add_scenario("swamp-random-1", 2, "swamp.map")
         self.run_well(*self.sweep(solvers=[self.solver("honest")]))
@@ -321,7 +323,7 @@ class Sweeps(ExternalSolverTests):
             self.assertEqual(row["scenario"], int(row["instance"].split("-")[2]))
             self.assertEqual(row["agents"], int(row["instance"].split("-")[3]))
         self.assertEqual(len(self.table()), 36)
-        # Resuming keeps the rows and adds those of further seeds.
+        # Resuming keeps the rows and adds rows for the new seed.
         self.run_well(*command)
         self.assertEqual([json.loads(line) for line in self.lines()], rows)
         command[command.index("1-2,5")] = "1-3"
@@ -336,7 +338,7 @@ class Sweeps(ExternalSolverTests):
         command = self.sweep("--seeds", "1-2", solvers=[self.solver("fails")])
         self.run_well(*command)
         table = self.folder / "out/results.jsonl"
-        table.write_text(re.sub(r'"ended_at":"\d{4}', '"ended_at":"2001', table.read_text()))  # the rows are old
+        table.write_text(re.sub(r'"ended_at":"\d{4}', '"ended_at":"2001', table.read_text()))  # makes the rows old
         before = [row for row in map(json.loads, self.lines()) if row["method"] == "grove"]
         self.assertTrue(before[0]["ended_at"].startswith("2001"))
         self.run_well(*command)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Imitates external solvers for tests of grove bench: correct, wrong and failing ones.
+"""Imitates external solvers, both correct and faulty ones, for tests of grove bench.
 
     fake_solver.py MAP SCENARIO AGENTS OUTPUT KIND
 
-Every agent of the scenario starts in the first column and goes to the last one of the same row, so
-that the straight paths are optimal."""
+Every agent of the scenario starts in the first column and goes to the last column of the same row, so that the
+straight paths are optimal."""
 import os
 import signal
 import subprocess
@@ -15,7 +15,7 @@ from pathlib import Path
 
 
 def rows_of(scenario, agents):
-    """Returns (start, goal) of each agent, both (x, y)."""
+    """Returns (start, goal) of each agent as (x, y) pairs."""
     lines = Path(scenario).read_text().splitlines()[1:]
     numbers = [[int(word) for word in line.split("\t")[4:8]] for line in lines[:agents]]
     assert len(numbers) == agents == len(lines), "the scenario has a wrong number of rows"
@@ -27,7 +27,7 @@ def straight(start, goal, waits=0):
 
 
 def write(output, paths):
-    """Writes paths in the format of EECBS, with cells as (row,column)."""
+    """Writes paths in the format of EECBS, in which cells are (row,column)."""
     text = "".join(f"Agent {k}: " + "".join(f"({y},{x})->" for x, y in path) + "\n"
                    for k, path in enumerate(paths))
     Path(output).write_text(text)
@@ -43,7 +43,7 @@ def main():
         write(output, paths)
         print(f"cost {cost} bound {cost}")
     elif kind == "collides":
-        first = paths[0][:2] + [(1, 1)] + paths[0][1:]  # where the second agent is at that time
+        first = paths[0][:2] + [(1, 1)] + paths[0][1:]  # (1, 1): where the second agent is at that time
         write(output, [first, straight(*rows[1], waits=1), *paths[2:]])
         print(f"cost {cost}")
     elif kind == "claims":

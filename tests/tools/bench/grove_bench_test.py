@@ -38,7 +38,7 @@ class Program(unittest.TestCase):
         return [self.generate(f"easy_s{k}_n3_m4", 3, 4, k) for k in range(1, count + 1)]
 
     def hard(self, count):
-        """Generates instances whose optimality proof takes many seconds."""
+        """Generates instances whose proof of optimality takes many seconds."""
         return [self.generate(f"hard_s{k}_n18_m30", 18, 30, k + 7) for k in range(1, count + 1)]
 
     # --- running ---
@@ -59,7 +59,7 @@ class Program(unittest.TestCase):
         return out
 
     def refuses(self, arguments, *texts):
-        """Checks that the command ends with exit code 2 and one error line that contains the texts."""
+        """Checks that the command exits with code 2 and prints one error line that contains the texts."""
         running = self.start(*arguments)
         out, err = running.communicate(timeout=HANG_S)
         self.assertEqual(running.returncode, 2, out + err)
@@ -85,7 +85,7 @@ class Program(unittest.TestCase):
         return file.read_text().splitlines(keepends=True) if file.exists() else []
 
     def rows(self):
-        """Returns {(instance, method): row}; fails on duplicates."""
+        """Returns {(instance, method): row}. Fails if a row occurs twice."""
         rows = [json.loads(line) for line in self.lines()]
         by_run = {(row["instance"], row["method"]): row for row in rows}
         self.assertEqual(len(by_run), len(rows))
@@ -97,15 +97,17 @@ class Program(unittest.TestCase):
 
 
 def as_cell(value):
-    """Returns a value of results.jsonl as results.csv writes it, except for the digits of a number."""
+    """Returns a value of results.jsonl as results.csv writes it, up to the digits of numbers."""
     if value is None:
         return ""
     return value if isinstance(value, str) else json.dumps(value)
 
 
 def number_or_text(cell):
-    """Returns the number or text of a cell: 0.78419199999999999 and 0.784192 are the same number, and a text that a
-    spreadsheet would take for a formula has an apostrophe in front."""
+    """Returns the number or text in a cell. A text that a spreadsheet would take for a formula is preceded by an
+    apostrophe.
+
+    Different digits can mean the same number: 0.78419199999999999 is 0.784192."""
     try:
         return float(cell)
     except ValueError:
@@ -149,7 +151,7 @@ class Results(Program):
             self.assertAlmostEqual(row["sqr"], row["root_cost"] / row["cost"], 5)
             self.assertEqual(row["runtime_s"], row["wall_s"])
             self.assertGreaterEqual(row["wall_s"] + 0.01, stats["wall_s"])
-        # Rows are ordered by scenario, then by method.
+        # The rows are sorted by scenario, then by method.
         self.assertEqual([(row["scenario"], row["method"]) for row in self.table()],
                          [(k, method) for k in "112" for method in ("exact", "paper")])
         for cells in self.table():
@@ -242,7 +244,7 @@ class Refusals(Program):
         self.assertTrue(self.rows()["easy_s1_n3_m4", "x"]["solved"])
 
     def test_unsupported_instances_are_not_errors(self):
-        """Mixes instances with and without turning agents, which the method does not support."""
+        """Mixes instances with and without turning agents; the method does not support turning."""
         for name, motion in (("a_turns", '"motion": "turning", "heading": "N", "turn_steps": 1, '), ("b_plain", ""), ("c_turns", '"motion": "turning", "heading": "N", "turn_steps": 1, ')):
             path = self.folder / f"instances/{name}.cts.json"
             path.parent.mkdir(exist_ok=True)
@@ -256,7 +258,7 @@ class Refusals(Program):
     def test_second_bench_in_the_same_folder_is_refused(self):
         self.hard(2)
         first = self.start(*self.bench(limit=300))
-        wait_until("a run", lambda: self.children(first.pid), first)  # the folder is locked before the first run
+        wait_until("a run", lambda: self.children(first.pid), first)  # the folder is locked before the first run starts
         self.refuses(self.bench(limit=300), "in use")
         first.send_signal(signal.SIGTERM)
         first.communicate(timeout=HANG_S)
@@ -269,7 +271,7 @@ class Refusals(Program):
         self.refuses(self.bench(limit=11), "time limit '10' there, '11' here")
         self.refuses(self.bench("--memory-limit", 1), "memory limit")
         text = path.read_text()
-        path.write_text(text + "\n")  # still the same instance
+        path.write_text(text + "\n")  # the same instance with a changed file
         self.run_well(*self.bench())
         path.write_text(text.replace('"a0"', '"robot"'))
         self.refuses(self.bench(), "the instance or its map has changed")

@@ -15,7 +15,7 @@ TEST(RootCosts, AreComputedOncePerInstance) {
   const Instance corridor = instance_of({"....."}, {{{0, 0}, Position{2, 0}, {{4, 0}}}});
   const Instance walled = instance_of({"..@."}, {{{0, 0}, Position{3, 0}}});
   EXPECT_EQ(costs.of(0, corridor), 6);
-  EXPECT_EQ(costs.of(0, walled), 6);  // the number of the instance decides: not computed again
+  EXPECT_EQ(costs.of(0, walled), 6);  // not computed again, because the index is the same
   EXPECT_EQ(costs.of(1, walled), std::nullopt);
 }
 

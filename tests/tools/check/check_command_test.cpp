@@ -7,7 +7,7 @@
 namespace grove::detail {
 namespace check_command_test {
 
-// . . .   a: from (0, 0) to (2, 0); b: from (2, 1) by task t (1, 1) to (0, 1).
+// . . .   a: from (0, 0) to (2, 0); b: from (2, 1) via task t (1, 1) to (0, 1).
 // . . .
 class CheckCommand : public ::testing::Test {
  protected:
@@ -20,12 +20,12 @@ class CheckCommand : public ::testing::Test {
       {"id": "b", "start": [2, 1], "goal": [0, 1]}], "tasks": [{"id": "t", "cell": [1, 1], "agents": ["b"]}]})");
   }
 
-  // Checks a plan with the given claims and agents (JSON).
+  // Checks a plan with the given claims and agents, both in JSON.
   ProcessResult check(const std::string& claims, const std::string& agents) const {
     directory_.write("p.json", "{" + claims + ", \"agents\": [" + agents + "]}");
     return run_grove({"check", directory_ / "i.json", directory_ / "p.json"});
   }
-  // The text on stderr, without the directory.
+  // Returns the text on stderr, without the directory.
   std::string said(const ProcessResult& result) const {
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_EQ(result.out, "");
@@ -91,7 +91,8 @@ TEST_F(CheckCommand, RefusesAPlanForAnotherInstance) {
             "grove: error: p.json: /agents/0/id: there is no agent 'z' in the instance\n");
 }
 
-// Paths of other solvers make no claims: only the paths are checked, and the output states this.
+// Path lists of other solvers make no claims. The command checks only the paths, and its output
+// says so.
 TEST_F(CheckCommand, ChecksBarePathLists) {
   directory_.write("paths.txt", "Agent 0: (0,0)->(0,1)->(0,2)->\nAgent 1: (1,2)->(1,1)->(1,0)->\n");
   EXPECT_EQ(run_grove({"check", directory_ / "i.json", directory_ / "paths.txt"}).out,

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests untrusted instances: which content of named files messages quote, what --confine refuses, and how much memory
-small files may take.
+"""Tests untrusted instances: which content of named files messages quote, what --confine refuses, and how much
+memory small files can require.
 
     hostile_files_test.py GROVE [GROVE_VERIFY]
 """
@@ -22,7 +22,7 @@ SECRET = "root:hunter2:19000"
 MAP = "type octile\nheight 1\nwidth 3\nmap\n...\n"
 ROBOTS = {"agents": [{"id": "a", "start": [0, 0], "goal": [2, 0]}], "tasks": []}
 MEMORY_GB = 0.2
-KILLED_GB = 4  # limit of the address space of the program
+KILLED_GB = 4  # limit on the address space of the program, in GB
 
 
 class Hostile(unittest.TestCase):
@@ -63,7 +63,7 @@ class Messages(Hostile):
             for name in (self.top / "secret", "../secret"):
                 message = self.refused("check", self.instance({key: str(name)}), "none.plan.json")
                 self.assertNotIn("hunter2", message)
-                self.assertIn("secret", message)   # only the name of the file
+                self.assertIn("secret", message)   # only the file name, not its content
                 self.assertIn("expected", message)
         message = self.refused("solve", self.instance({"map": "/proc/self/environ"}))
         self.assertNotIn("=", message)
@@ -120,7 +120,7 @@ class Confined(Hostile):
         self.assertTrue(plan.exists())
         for command in commands(self.instance({"map": "../ours.map"}), plan):
             with self.subTest(command=command[0]):
-                self.assertEqual(self.run_it(*command).returncode, 0)  # without --confine any file may be named
+                self.assertEqual(self.run_it(*command).returncode, 0)  # without --confine a map anywhere is accepted
                 message = self.refused(*command, "--confine")
                 self.assertRegex(message, "/map: '../ours.map' leads outside the folder.*--confine")
         for command in commands(self.instance({"map": "inside.map"}), plan):
@@ -172,7 +172,7 @@ class Confined(Hostile):
 
 
 class Memory(Hostile):
-    """Tests files of some hundred bytes that require gigabytes of memory."""
+    """Tests files of some hundred bytes that would require gigabytes of memory."""
 
     def refused_for_memory(self, *words, limit=True):
         message = self.refused(*words, *(["--memory-limit", MEMORY_GB] if limit else []))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For each kind of malformed file the program ends with exit code 2 and one line that names the
-// file and the place. The tests of the readers compare the full messages.
+// For each kind of malformed file the program exits with code 2 and prints one line that names the
+// file and the position. The tests of the readers compare the full messages.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,9 +15,9 @@ namespace malformed_files_test {
 using ::testing::StartsWith;
 
 struct Malformed {
-  std::string name;     // of the case
-  std::string content;  // of the file
-  std::string place;    // the message begins with the file, then this
+  std::string name;     // name of the test case
+  std::string content;  // content of the file
+  std::string place;    // start of the message after the file name
 };
 
 void PrintTo(const Malformed& malformed, std::ostream* out) {
@@ -57,7 +57,7 @@ class MalformedFiles : public ::testing::TestWithParam<Malformed> {
     return complaint(run_grove({"check", directory_ / "m.scen", "--map", directory_ / "m.map",
                                 "--agents", agents, directory_ / "p.json"}));
   }
-  // Writes the parameter's content to the file `name` and calls `act`.
+  // Writes the content of the test case to the file `name`, calls `act` and expects the refusal.
   template <typename Act>
   void expect_refused(const std::string& name, Act act) const {
     directory_.write(name, GetParam().content);

@@ -39,7 +39,7 @@ class Completions(unittest.TestCase):
                        '_grove; printf "%s\\n" "${COMPREPLY[@]}"')
             self.assertEqual(done.stderr, "")
             self.assertLessEqual(expected, set(done.stdout.split()))
-        # After an option that takes a file, bash completes file names itself.
+        # After an option that takes a file, bash itself completes file names.
         done = run("bash", "-c", script("bash") + "\nCOMP_WORDS=(grove solve --output ''); COMP_CWORD=3\n"
                    '_grove; echo "${#COMPREPLY[@]}"')
         self.assertEqual(done.stdout, "0\n")

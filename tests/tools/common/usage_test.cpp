@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Help, version, and the exit code and message of wrong usage.
+// Tests help, version, and the exit code and message for wrong usage.
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_directory.h"
@@ -90,7 +90,7 @@ TEST(Usage, OptionsBeforeTheCommandAreRefused) {
   EXPECT_EQ(said({"help", "solve", "frob"}), "unknown command 'frob' (see 'grove --help')");
 }
 
-// As with compilers: a caller can override the options of a script.
+// As with compilers, callers can override options that a script sets.
 TEST(Usage, LastOfARepeatedOptionCounts) {
   const TemporaryDirectory directory;
   const std::string map = directory / "m.map";

@@ -11,7 +11,7 @@ namespace convert_command_test {
 
 using Arguments = std::vector<std::string>;
 
-// . @ . . .   Wider than high, and different from all its mirrored and rotated versions.
+// . @ . . .   Wider than high, and without symmetries.
 // . . . . .
 // . . . @ @
 const std::string kMap = "type octile\nheight 3\nwidth 5\nmap\n.@...\n.....\n...@@\n";
@@ -59,14 +59,14 @@ class ConvertCommand : public ::testing::Test {
     arguments.insert(arguments.begin(), "convert");
     return run_grove(arguments, {.directory = directory_.path().string()});
   }
-  // Converts, expects success, and returns the output.
+  // Converts, expects success and returns the output.
   std::string converted(const Arguments& arguments) const {
     const ProcessResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.err, "");
     return result.out;
   }
-  // Expects a refusal that writes or changes no file, and returns the message.
+  // Expects a refusal that neither creates nor changes a file, and returns the message.
   std::string refused(const Arguments& arguments) const {
     const auto files = directory_.files();
     const std::string text = complaint(run(arguments));
@@ -126,7 +126,7 @@ TEST_F(ConvertCommand, MapPathIsRelativeToTheOutput) {
 }
 
 TEST_F(ConvertCommand, MapsAreNotOverwritten) {
-  converted({"plain.yaml", "m.cts.json"});  // m.map has the same cells, so it is used
+  converted({"plain.yaml", "m.cts.json"});  // m.map has the same cells, so the instance names it
   EXPECT_EQ(content("m.cts.json"), kPlain);
   const std::string other = replaced(kMap, ".@...", "..@..");
   directory_.write("o.map", other);
@@ -157,7 +157,7 @@ TEST_F(ConvertCommand, TasksAreDroppedOnlyOnRequest) {
   EXPECT_EQ(content("o.scen"), kScen);
   converted({"--drop", "tasks", "tasks.cts.json", "o.yaml"});
   EXPECT_EQ(content("o.yaml"), kPlainYaml);
-  // Everything that the format can represent is kept.
+  // Everything that the format can represent is kept, even if it may be dropped.
   converted({"tasks.cts.json", "o.cts.json", "--drop", "ids,tasks"});
   EXPECT_EQ(content("o.cts.json"), kTasks);
 }
@@ -327,7 +327,7 @@ TEST_F(ConvertCommand, InvalidPlansAreRefused) {
             "because a row of MAPF Tracker requires it");
 }
 
-// Other tests fuzz the readers; this one tests the messages for their exceptions.
+// Other tests fuzz the readers; this test checks the messages for broken files.
 TEST_F(ConvertCommand, BrokenFilesAreRefusedInOneLine) {
   converted({"tasks.cts.json", "tasks.mapfw.json"});
   std::mt19937 random(7);

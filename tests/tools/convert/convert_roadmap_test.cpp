@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove convert from GraphML and LIF to roadmaps, as users call it.
+// Tests `grove convert` from GraphML and LIF to roadmaps as users call it.
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_directory.h"
@@ -10,7 +10,7 @@ namespace convert_roadmap_test {
 
 using Arguments = std::vector<std::string>;
 
-// Written by hand in the style of networkx: an aisle of 4 m, a ramp of 2.6 m.
+// Written by hand in the style of networkx, with an aisle of 4 m and a ramp of 2.6 m.
 const std::string kGraphml = R"(<?xml version='1.0' encoding='utf-8'?>
 <graphml xmlns="http://graphml.graphdrawing.org/xmlns">
   <key id="d2" for="edge" attr.name="length" attr.type="double" />
@@ -38,7 +38,7 @@ std::string lif_edge(const std::string& from, const std::string& to, const std::
          R"("maxSpeed": )" +
          speed + "}]}";
 }
-// A street from "in" to "out", and a press next to it; each road in both directions.
+// A street from "in" to "out" with a press next to it; each road has an edge in both directions.
 const std::string kLif =
     R"({"metaInformation": {"projectIdentification": "plant", "creator": "us",
   "exportTimestamp": "2024-03-01T10:00:00.00Z", "lifVersion": "1.0.0"},
@@ -82,7 +82,7 @@ class ConvertRoadmap : public ::testing::Test {
     EXPECT_EQ(directory_.files(), files);
     return text;
   }
-  // Returns the output of grove check for an optimal plan of the instance.
+  // Solves the instance to optimality and returns the output of `grove check`.
   std::string solved() const {
     const Arguments solve = {"solve", "i.cts.json", "--omega", "0", "--quiet", "--output", "plan"};
     EXPECT_EQ(grove(solve).exit_code, 0);
@@ -130,7 +130,7 @@ TEST_F(ConvertRoadmap, LifIsConvertedWithTwoLanesOrOne) {
             "rounding: at most 0.8 steps (0.8 s): 5.2 became 6, /layouts/0/edges/0 from 'in' to "
             "'fork'\n"
             "rounding: at most 15.38 %: 5.2 became 6, /layouts/0/edges/0 from 'in' to 'fork'\n");
-  // a: 6 + 14 + 14 + 6, b: 7 + 6; each on its own lane.
+  // a: 6 + 14 + 14 + 6, b: 7 + 6. Each robot has its own lane.
   EXPECT_EQ(solved(), "valid: cost 53, lower bound 53, gap 0.00 %, 2 agents\n");
 
   Arguments merge = convert;
@@ -150,7 +150,7 @@ TEST_F(ConvertRoadmap, RobotsCannotPassEachOtherOnOneLane) {
   Arguments convert = {"p.lif.json", "o.roadmap.json", "--metres-per-step", "2"};
   EXPECT_EQ(run(convert).exit_code, 0);
   EXPECT_EQ(solved(), "valid: cost 6, lower bound 6, gap 0.00 %, 2 agents\n");
-  // Each robot moves aside for the other; exhaustive search finds the same cost.
+  // Each robot moves aside for the other. An exhaustive search finds the same cost.
   convert.emplace_back("--merge-lanes");
   EXPECT_EQ(run(convert).exit_code, 0);
   EXPECT_EQ(solved(), "valid: cost 12, lower bound 12, gap 0.00 %, 2 agents\n");
@@ -166,7 +166,7 @@ TEST_F(ConvertRoadmap, RoadsWithoutAnEdgeAreRefused) {
             "one.graphml: has no edge; expected at least one");
   std::string lif = kLif;
   for (std::size_t at = 0; (at = lif.find("\"T\", \"rot", at)) != std::string::npos;)
-    lif.replace(at, 3, "\"U\"");  // the edges are for a different vehicle type than the nodes
+    lif.replace(at, 3, "\"U\"");  // the edges are then for a vehicle type other than T
   directory_.write("u.lif.json", lif);
   EXPECT_EQ(
       refused({"u.lif.json", "o.roadmap.json", "--metres-per-step", "1", "--vehicle-type", "T"}),

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Converts a ROS map of an office, solves on it and checks the waypoints against the original image.
+"""Converts a ROS map of an office, solves an instance on it and checks the waypoints against the original image.
 
     office_test.py GROVE [FOLDER]    keeps the files in FOLDER
 """
@@ -24,7 +24,8 @@ FREE, WALL, UNKNOWN = 254, 0, 205
 
 
 def office(width=400, height=300, seed=1):
-    """Returns pixel rows from the top: two rows of rooms along a corridor, doors, desks, an unknown corner."""
+    """Returns pixel rows, from the top, of an office: two rows of rooms along a corridor, doors, desks, an unknown
+    corner."""
     dice = random.Random(seed)
     rows = [bytearray([FREE]) * width for _ in range(height)]
 
@@ -62,7 +63,8 @@ def png(rows):
 
 
 def clearance(rows, x, y):
-    """Returns the metres from a point of the world to the nearest pixel that is not free, at most 1."""
+    """Returns the distance in metres, at most 1, from a point in world coordinates to the nearest pixel that is not
+    free."""
     px, py = (x - ORIGIN[0]) / RESOLUTION, len(rows) - (y - ORIGIN[1]) / RESOLUTION
     reach, best = int(1 / RESOLUTION), 1.0
     for iy in range(int(py) - reach, int(py) + reach + 1):

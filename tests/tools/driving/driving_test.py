@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs all tests of this folder: code shared by the programs that drive robots.
+"""Runs all tests in this folder, which test code shared by the programs that drive robots.
 
     driving_test.py GROVE [TEST...]
 """

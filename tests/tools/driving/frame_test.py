@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests the conversion of metres in an order to cells."""
+"""Tests the conversion from the metres in an order to cells."""
 import unittest
 
 import orders

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs main() of a program in this process, for short runs whose time is mostly the start of Python."""
+"""Runs main() of a program in this process, because starting Python would take most of the time of a short run."""
 import contextlib
 import io
 import signal

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests the reader of passing orders: the parsed values, and the place in each error message."""
+"""Tests the reader of passing orders: the parsed values, and the position named in each error message."""
 import copy
 import json
 import unittest

@@ -8,16 +8,16 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-GROVE = Path("build/release/bin/grove")     # set by suite.run()
+GROVE = Path("build/release/bin/grove")     # suite.run() replaces it
 
-# A ring: four robots on a block of 2 x 2 cells; each moves to the cell of the next one.
+# A ring: four robots on a block of 2 x 2 cells; each moves to the cell of the next robot.
 ROUND = {"map": "open.map", "tasks": [],
          "agents": [{"id": "a", "start": [2, 1], "goal": [3, 1]}, {"id": "b", "start": [3, 1], "goal": [3, 2]},
                     {"id": "c", "start": [3, 2], "goal": [2, 2]}, {"id": "d", "start": [2, 2], "goal": [2, 1]}]}
-# Two robots that must pass each other in a corridor with one niche.
+# Two robots that must pass each other in a corridor with a single niche.
 NARROW = {"map": "narrow.map", "tasks": [{"id": "t", "cell": [3, 0], "agents": ["up"]}],
           "agents": [{"id": "up", "start": [0, 1], "goal": [6, 1]}, {"id": "down", "start": [6, 1], "goal": [0, 1]}]}
-# Two robots on roads of two and three steps that pass each other at a crossing; both have tasks on the way.
+# Two robots on roads of two and three steps that pass each other at a crossing. Both have tasks on their way.
 ROADS = {"roadmap": "hall.roadmap.json",
          "tasks": [{"id": "press", "cell": "C", "agents": ["r1", "r2"], "duration": 2},
                    {"id": "look", "cell": "N", "agents": ["r2"]}],
@@ -51,7 +51,7 @@ def grove(*arguments):
 
 @functools.cache
 def order_file(name, following=True):
-    """Returns the passing order file of the instance with this name, one of those above."""
+    """Returns the passing order file of one of the instances above. If not `following`, no robot follows another."""
     stem = name if following else f"{name}.none_follows"
     if name in GENERATED:
         map_name, *options = GENERATED[name]
@@ -63,7 +63,7 @@ def order_file(name, following=True):
 
 
 def visits(name):
-    """Returns {(robot, cell)} of the tasks of the instance."""
+    """Returns {(robot, cell)} for the tasks of the instance."""
     order_file(name)
     instance = json.loads((folder() / f"{name}.cts.json").read_text())
     return {(robot, tuple(task["cell"])) for task in instance["tasks"] for robot in task["agents"]}

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Runs the tests of a folder: FOLDER_test.py GROVE [TEST...]."""
+"""Runs the tests in a folder: FOLDER_test.py GROVE [TEST...]."""
 import sys
 import unittest
 from pathlib import Path
 
 
 def run(file, modules):
-    """Runs the tests of the modules, or those named on the command line; returns the exit code."""
+    """Runs the tests in the modules, or those named on the command line, and returns the exit code."""
     grove, *names = sys.argv[1:]
     sys.path[:0] = [str(Path(file).resolve().parent), str(Path(grove).resolve().parent)]
     import orders

@@ -70,7 +70,7 @@ TEST_F(ExecuteCommand, ExecutionKeepsNoFollowing) {
   EXPECT_EQ(checked.exit_code, 0) << checked.err;
 }
 
-// As in plan files.
+// The planned start is negative, as in plan files.
 TEST_F(ExecuteCommand, TaskBegunBeforeThePlanHasNegativePlannedTime) {
   std::ofstream(directory_ / "row.map") << "type octile\nheight 1\nwidth 3\nmap\n...\n";
   const std::string row = directory_ / "row.cts.json";
@@ -91,7 +91,7 @@ TEST_F(ExecuteCommand, StopDelaysAtMostItsDuration) {
   const auto cost = [&](const char* file) { return int(read(file)["agents"][2]["cost"]); };
   EXPECT_GT(cost("late.json"), cost("calm.json"));
   EXPECT_LE(cost("late.json"), cost("calm.json") + 60);
-  // The robot rests somewhere for at least 60 steps: the stop, and the next action.
+  // The robot stays somewhere for at least 60 steps, for the stop and its next action.
   const json path = read("late.json")["agents"][2]["path"];
   std::size_t longest = 0;
   for (std::size_t t = 1, since = 0; t < path.size(); ++t) {
@@ -101,8 +101,8 @@ TEST_F(ExecuteCommand, StopDelaysAtMostItsDuration) {
   EXPECT_GE(longest, 60u);
 }
 
-// Follows only the file: each robot goes from its start action by action and waits for the
-// dependencies listed there.
+// Uses only the file: each robot starts at its start, performs its actions in order, and waits for
+// the listed dependencies.
 TEST_F(ExecuteCommand, WritesThePassingOrder) {
   ASSERT_EQ(execute({"--order", directory_ / "order.json"}).exit_code, 0);
   const json order = read("order.json");

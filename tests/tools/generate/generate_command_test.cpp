@@ -27,7 +27,7 @@ std::vector<std::string> words_of(const std::string& text) {
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-// Runs grove in `directory` with the arguments, separated by blanks.
+// Runs `grove generate` in `directory` with the arguments, which are separated by spaces.
 ProcessResult generate(const TemporaryDirectory& directory, const std::string& arguments) {
   ProcessOptions options;
   options.directory = directory.path().string();
@@ -288,7 +288,7 @@ TEST(GeneratePaper, MakesOneSetOfThreeMapsAndTwoProblems) {
   const auto mg = lines_of(file_content(directory / "out/paper/manifest-mg.txt"));
   EXPECT_EQ(mg.size(), 36U);
   for (const std::string& name : mg) EXPECT_TRUE(name.ends_with("_mg.cts.json")) << name;
-  // Maps and instances equal the data shipped with Grove.
+  // The maps and instances equal the data shipped with Grove.
   const fs::path data = GROVE_DATA;
   for (const char* map : {"empty-32x32.map", "random-32x32-20.map", "rooms-32x32.map"})
     EXPECT_EQ(file_content(directory.path() / "out/paper" / map), file_content(data / map)) << map;

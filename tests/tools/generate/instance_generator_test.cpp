@@ -73,7 +73,7 @@ TEST(GenerateInstance, WithMgTurnsGoalsIntoTasks) {
     EXPECT_NE(std::ranges::find(cells, *with_goals.agent(i).goal), cells.end());
     for (const Task& task : with_goals.tasks()) joined += task.cell == *with_goals.agent(i).goal;
   }
-  EXPECT_GT(joined, 0);  // if a goal is on a task, there is one task fewer
+  EXPECT_GT(joined, 0);  // one task fewer for each goal on a task
   EXPECT_EQ(mg.task_count(), 80 + 20 - joined);
 }
 
@@ -139,7 +139,7 @@ TEST(GenerateInstance, SkipsRepeatedTaskCells) {
 }
 
 TEST(GenerateInstance, GivesTasksOnlyToAgentsThatCanReachThem) {
-  // Agents and tasks left and right of a wall.
+  // Agents and tasks are on both sides of a wall.
   std::vector<bool> passable(30, true);
   for (int y = 0; y < 10; ++y) passable[3 * y + 1] = false;
   const Grid split(3, 10, passable);

@@ -68,7 +68,7 @@ TEST(RoomsMap, HasTheRequestedNumberOfDoors) {
 
 TEST(RoomsMap, HasNoWallAtTheEdge) {
   EXPECT_EQ(text(rooms_map(4, 1, 3, 1, 0)), "....\n");
-  EXPECT_EQ(text(rooms_map(5, 1, 3, 1, 0)), ".....\n");  // the only cell of the wall is the door
+  EXPECT_EQ(text(rooms_map(5, 1, 3, 1, 0)), ".....\n");  // the only cell of the wall is its door
 }
 
 }  // namespace map_generator_test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reachability, for tests of generators.
+// Reachability for tests of generators.
 #pragma once
 
 #include <set>
@@ -9,7 +9,7 @@
 
 namespace grove::detail {
 
-// Returns the places reachable from `place` by the edges `next`.
+// Returns the places that are reachable from `place` along the edges `next`.
 template <class Next>
 std::set<Place> closure_of(Place place, Next next) {
   std::set<Place> seen{place};

@@ -46,7 +46,7 @@ bool is_strongly_connected(const Roadmap& roadmap) {
 
 // --- planar ---
 
-// In centimetres, so that the test of planarity is exact.
+// Coordinates in centimetres, so that the test of planarity is exact.
 struct Segment {
   std::int64_t ax, ay, bx, by;
 };
@@ -58,7 +58,7 @@ Segment segment(const Roadmap& roadmap, const Road& road) {
           std::llround(b.y * 100)};
 }
 
-// Side of the segment's line on which the point lies: 1, 0 or -1.
+// Returns the side of the segment's line on which the point lies: 1, -1, or 0 if it is on the line.
 int side(const Segment& s, std::int64_t x, std::int64_t y) {
   const std::int64_t turn = (s.bx - s.ax) * (y - s.ay) - (s.by - s.ay) * (x - s.ax);
   return turn > 0 ? 1 : turn < 0 ? -1 : 0;
@@ -73,7 +73,7 @@ bool is_on(const Segment& s, std::int64_t x, std::int64_t y) {
   return side(s, x, y) == 0 && is_within_box(s, x, y);
 }
 
-// For segments without a common end.
+// Returns whether two segments without a common end meet.
 bool meet(const Segment& s, const Segment& t) {
   if (is_on(s, t.ax, t.ay) || is_on(s, t.bx, t.by) || is_on(t, s.ax, s.ay) || is_on(t, s.bx, s.by))
     return true;
@@ -93,14 +93,14 @@ bool is_planar(const Roadmap& roadmap) {
     }
     for (std::size_t j = 0; j < i; ++j) {
       const std::set<int> ends{roads[i].from, roads[i].to, roads[j].from, roads[j].to};
-      if (ends.size() < 3) return false;  // a parallel road
+      if (ends.size() < 3) return false;  // parallel roads
       if (ends.size() == 4 && meet(s, segment(roadmap, roads[j]))) return false;
     }
   }
   return true;
 }
 
-// True if removing the road, with all roads taken as two-way, disconnects its ends.
+// Returns whether removing the road disconnects its ends if all roads count as two-way.
 bool is_bridge(const Roadmap& roadmap, std::size_t road) {
   std::vector<Road> others = roadmap.roads();
   const Road removed = others[road];
@@ -145,7 +145,7 @@ TEST(PlanarRoadmap, IsPlanarAndStronglyConnected) {
   }
 }
 
-// Within a few centimetres, where collinear and cocircular points are frequent.
+// In rectangles of a few centimetres, collinear and cocircular points are frequent.
 TEST(PlanarRoadmap, IsPlanarAndConnectedWithCocircularPoints) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const Roadmap roadmap = planar_roadmap(

@@ -131,7 +131,8 @@ TEST(RoadmapInstance, DrawsDurations) {
 }
 
 TEST(RoadmapInstance, UsesTheLargestStrongComponent) {
-  // A ring of four, a ring of three with a road to it, and a vertex reached from it.
+  // A ring of four vertices, a ring of three from which it can be reached, and a ring of three that
+  // can be reached from it.
   std::vector<Vertex> vertices;
   for (int k = 0; k < 10; ++k)
     vertices.push_back({fmt::format("{}{}", k < 3 ? "in" : k < 7 ? "ring" : "out", k), {}});
@@ -163,7 +164,7 @@ TEST(RoadmapInstance, RefusesTooLargeCounts) {
             "tasks; expected at most 64");
 }
 
-// Compared with reachability, vertex by vertex.
+// Compares the result with the reachability of each vertex.
 TEST(LargestStrongComponent, IsTheFirstOfTheLargest) {
   Random random(1);
   for (int round = 0; round < 200; ++round) {

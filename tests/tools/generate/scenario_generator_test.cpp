@@ -11,7 +11,7 @@
 namespace grove::detail {
 namespace scenario_generator_test {
 
-// Two components: 6 cells on the left, 2 on the right.
+// Two components, with 6 cells on the left and 2 on the right.
 Grid two_parts() {
   return Grid(5, 2, {true, true, true, false, true, true, true, true, false, true});
 }

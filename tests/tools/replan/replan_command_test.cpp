@@ -37,7 +37,7 @@ class ReplanCommand : public ::testing::Test {
     words.insert(words.end(), more.begin(), more.end());
     return run_grove(words);
   }
-  // Expects that the run succeeds and that the checker accepts the files written.
+  // Expects that the run succeeds and that the checker accepts the files that it writes.
   void expect_valid(const std::vector<std::string>& words) {
     const ProcessResult done = replan(words);
     ASSERT_EQ(done.exit_code, 0) << done.err;
@@ -114,11 +114,11 @@ TEST_F(ReplanCommand, CommittedStepsAreKept) {
   const json now = read("then.plan.json")["agents"][0]["path"];
   for (std::size_t t = 0; t <= 4; ++t) EXPECT_EQ(now[t], path[t + 10]);
   EXPECT_EQ(std::ranges::count(now, ahead), 0);
-  // The map with the blocked cell lies next to the instance.
+  // The map with the blocked cell is written next to the instance.
   EXPECT_EQ(read("then.cts.json")["map"], "then.map");
 }
 
-// The existing, cheaper plan deviates from the committed steps.
+// A cheaper plan already exists but deviates from the committed steps.
 TEST_F(ReplanCommand, CommittedStepsReplaceACheaperPlan) {
   const json path = read("p.plan.json")["agents"][3]["path"];
   expect_valid({"--at", "20", "--late", "a3=6", "--omega", "0"});
@@ -149,7 +149,7 @@ TEST_F(ReplanCommand, AddsAndDropsTasks) {
   EXPECT_EQ(std::ranges::count(tasks, left), 0);
 }
 
-// The plan file records it; --no-following need not be given again.
+// The plan file records that following is forbidden, so that --no-following need not be repeated.
 TEST_F(ReplanCommand, PlanWithoutFollowingForbidsFollowingLater) {
   std::filesystem::remove(plan_);
   ASSERT_EQ(run_grove({"solve", instance_, "--quiet", "--omega", "inf", "--no-following",
@@ -167,7 +167,7 @@ TEST_F(ReplanCommand, PlanWithoutFollowingForbidsFollowingLater) {
     std::filesystem::remove(directory_ / "then.plan.json");
     expect_valid(words);
     EXPECT_EQ(read("then.plan.json")["following"], false);
-    // Re-plan again, from the files written.
+    // Re-plan once more, from the files just written.
     ASSERT_EQ(run_grove({"replan", directory_ / "then.cts.json", directory_ / "then.plan.json",
                          "--at", "3", "--quiet", "--output", next})
                   .exit_code,
@@ -253,7 +253,7 @@ TEST_F(ReplanCommand, RefusesToBlockABlockedCell) {
               HasSubstr("--blocked: '" + cell + "': the map is blocked there already"));
 }
 
-// A robot without a destination may end on any of its remaining tasks.
+// A robot without a destination can end on any of its remaining tasks.
 TEST_F(ReplanCommand, KeepsRobotsWithoutDestination) {
   write("row.map", "type octile\nheight 1\nwidth 5\nmap\n.....\n");
   const std::string row = write("row.cts.json", R"({"map": "row.map",

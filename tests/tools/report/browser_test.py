@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Opens reports in Chromium: checks that they send no requests, log no errors and show their figures.
+"""Opens reports in Chromium and checks that they send no requests, log no errors and show their figures.
 
     browser_test.py GROVE
 
@@ -19,11 +19,11 @@ from devtools import CHROMIUM, Chromium, is_blank, shares  # noqa: E402
 
 GROVE = Path("build/release/bin/grove")
 SKIPPED = 77
-LINE_COLOUR = (0x00, 0x72, 0xB2)  # of the first method, in every figure
+LINE_COLOUR = (0x00, 0x72, 0xB2)  # colour of the first method in every figure
 
 
 def rows():
-    """Returns few rows, because each map and number of agents is drawn."""
+    """Returns only a few rows, because each map and number of agents adds a panel to draw."""
     found = synthetic.rows(1, maps=("room-32-32-4",), agents=(5,), tasks=(10, 30))
     return [row for row in found if row["method"] in ("auto", "cts-cbs-a", "hcbs") or row["problem"] == "cts"]
 
@@ -60,10 +60,10 @@ class Browser(unittest.TestCase):
         self.assertEqual(page_visit.requests, [])
         self.assertFalse(is_blank(page_visit.picture))
         self.assertGreater(shares(page_visit.picture).get(LINE_COLOUR, 0), 2e-4, "no figure is visible")
-        # Dark on light.
+        # Dark text on a light page.
         self.assertGreater(shares(page_visit.picture)[255, 255, 255], 0.5)
         self.assertEqual(red(page_visit.picture), 0)
-        # The banner of a contradiction is visible without scrolling.
+        # The warning about a contradiction is visible without scrolling.
         found = [row for row in found if row["problem"] == "mg" and row["solved"]]
         found += [row | {"method": "x", "status": "optimal", "cost": 1} for row in found]
         self.assertGreater(red(self.visit(self.report(found)).picture), 0.05)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests the reading of rows and every figure computed from them, on rows small enough to compute by hand."""
+"""Tests the reader of rows and every figure computed from them, with rows small enough for computing results by
+hand."""
 import json
 import math
 import sys
@@ -23,7 +24,7 @@ NEEDED = {"instance": "i", "method": "a", "map": "m", "agents": 5, "tasks": 10, 
 
 
 def row(**values):
-    """Returns a row as read; by default it is solved in one second."""
+    """Returns a row as the reader returns it; by default solved in one second."""
     absent = {name: None if absent is rows.NEEDED else absent
               for name, (_, absent) in rows.COLUMNS.items()}
     found = rows.Row(**(absent | NEEDED | values))
@@ -35,7 +36,7 @@ def failed(**values):
 
 
 def measures(found):
-    """Returns the measures of rows that are all rows of the table."""
+    """Returns the measures of the rows, compared only with each other."""
     return metrics.measures(found, metrics.best_costs(found))
 
 
@@ -89,7 +90,7 @@ class Reading(Folder):
         self.assertEqual((len(results.rows), results.cut_off), (1, [f"{self.folder}/a.jsonl"]))
         self.assertEqual(self.error_of(self.text("a.jsonl", good[:20])),
                          "a.jsonl: no rows; expected at least one")
-        whole = read_results([self.text("a.jsonl", good)])  # only the line break is missing
+        whole = read_results([self.text("a.jsonl", good)])  # only the last line break is missing
         self.assertEqual((len(whole.rows), whole.cut_off), (1, []))
 
     def test_byte_order_mark_is_ignored(self):
@@ -130,7 +131,7 @@ class Reading(Folder):
 
 
 class Formulas(Folder):
-    """Tests cells that a spreadsheet would take for a formula."""
+    """Tests cells that a spreadsheet would take for formulas."""
     GUARDED = ("=1+2", "@SUM(A1)", "+1-2", "-2+3", "\t=1", "\r=1", "=a,b", "'=1", "--omega 0")
     PLAIN = ("", "a", "-1", "-1.5e-3", "'a", "1-2")
 
@@ -234,7 +235,7 @@ class Measures(unittest.TestCase):
         self.assertEqual((found.mean_roots, found.mean_rtsp_calls), (12, 10))
 
     def test_seeds_share_the_weight_of_an_instance(self):
-        """Checks that an instance with many seeds weighs as much as an instance with one seed."""
+        """Checks that an instance with many seeds has the same weight as an instance with one seed."""
         found = measures([*(row(seed=seed, runtime_s=2.0, sqr=0.5, cost=20) for seed in (1, 2, 3)), failed(seed=4),
                           row(instance="j", seed=1, runtime_s=10.0, sqr=1.0, cost=30), failed(instance="k", seed=1)])
         self.assertEqual((found.instances, found.seeds, found.runs, found.solved), (3, 4, 6, 4))
@@ -260,15 +261,15 @@ class Measures(unittest.TestCase):
             return metrics.within_omega(row(omega=omega, **values))
         for cost, found in ((100, True), (101, True), (102, False)):
             self.assertIs(within("0.01", cost=cost, lower_bound=100), found)
-        # The cost of the plan counts, not the status.
+        # The cost and the bound count, not the status.
         self.assertIs(within("0.01", status="bounded", cost=102, lower_bound=100), False)
-        # 1.1 x 110 is 121, but a little more or less in binary.
+        # 1.1 x 110 is 121, but not exactly in binary.
         self.assertIs(within("0.1", cost=121, lower_bound=110), True)
         self.assertIs(within("0.1", cost=122, lower_bound=110), False)
         self.assertIs(within("0", cost=10, lower_bound=10), True)
         self.assertIs(within("0", cost=10, lower_bound=9), False)
         for status, found in (("optimal", True), ("bounded", True), ("feasible", False)):
-            self.assertIs(within("0.01", status=status), found)  # the row has no bound
+            self.assertIs(within("0.01", status=status), found)  # without a bound the status counts
         for omega in ("inf", ""):
             self.assertIsNone(within(omega, status="optimal", lower_bound=10))
 
@@ -291,7 +292,7 @@ class Measures(unittest.TestCase):
         hard = row(instance="j", cost=30)
         best = metrics.best_costs([easy, hard, row(method="b", cost=8), failed(instance="k", cost=1),
                                    row(method="b", instance="j", cost=30)])
-        # 10/8 and 30/30; the failure does not count.
+        # 10/8 and 30/30; the failed run does not count.
         self.assertEqual(metrics.measures([easy, hard, failed(instance="k", cost=2)], best).mean_cost_ratio,
                          1.125)
         free = row(cost=0)
@@ -299,7 +300,8 @@ class Measures(unittest.TestCase):
         self.assertIsNone(metrics.cost_ratio(easy, metrics.best_costs([easy, free])))
 
     def test_cost_ratio_does_not_penalise_solving_harder_instances(self):
-        """Checks that only its mean SQR is worse: 10/10 on the easy instance, 10/20 on one that no other solves."""
+        """Checks that only the mean SQR is worse: 10/10 on the easy instance, 10/20 on one that no other method
+        solves."""
         exact = [row(status="optimal", cost=10, sqr=1.0),
                  row(instance="j", status="optimal", cost=20, sqr=0.5)]
         other = [row(method="b", cost=11, sqr=10 / 11), failed(method="b", instance="j")]
@@ -321,7 +323,7 @@ class Measures(unittest.TestCase):
         self.assertEqual(time_of(row(runtime_s=5), row(runtime_s=1), row(runtime_s=3)), 3)
         self.assertEqual(time_of(row(runtime_s=5), failed()), 5)
         self.assertEqual(time_of(row(runtime_s=5), failed(), failed()), 100)
-        # A success after the limit is still a success.
+        # A solved run above the limit still counts as solved.
         self.assertEqual(time_of(row(runtime_s=101), failed()), 101)
 
     def test_solved_over_time(self):
@@ -345,7 +347,7 @@ class Measures(unittest.TestCase):
 
 
 class Speedups(unittest.TestCase):
-    """Tests speed-ups of method a over baselines x and y on five instances."""
+    """Tests the speed-up of method a over baselines x and y on five instances."""
 
     def setUp(self):
         def times(instance, **seconds):
@@ -354,9 +356,9 @@ class Speedups(unittest.TestCase):
                     for method, time in seconds.items()]
         runs = metrics.median_runs([
             *times("p", x=10, y=20, a=2),       # best 10
-            *times("q", x=None, y=30, a=10),    # best 30
+            *times("q", x=None, y=30, a=10),    # best 30: x failed
             *times("r", x=50, y=40, a=None),    # best 40
-            *times("easy", x=0.5, y=90, a=9),   # best 0.5: omitted
+            *times("easy", x=0.5, y=90, a=9),   # best 0.5: too easy, omitted
             *times("hard", x=None, y=None, a=1)])
         self.found = {(each.map, each.baseline.method, each.line.method): each
                       for each in speedup.speedups(runs, lambda line: line.method in "xy")}
@@ -367,7 +369,7 @@ class Speedups(unittest.TestCase):
         self.assertEqual((found.instances, found.median_ratio, found.line_failed, found.baseline_failed),
                          (3, 3.0, 1, 0))
         self.assertEqual((found.baseline_median_s, found.line_median_s), (30, 10))
-        self.assertEqual(found.sure, "exactly")  # 40/100 is the smallest anyway
+        self.assertEqual(found.sure, "exactly")  # exact, because 40/100 is the smallest ratio in any case
 
     def test_speedup_over_one_baseline(self):
         found = self.found["", "x", "a"]
@@ -451,7 +453,7 @@ class FalseClaims(unittest.TestCase):
         self.assertEqual(self.false_claims(row(method="x", cost=10, claimed_cost=9)), [("x", "cost", 9, 10)])
         self.assertEqual(self.false_claims(row(method="x", cost=10, solver="x", trace=(rows.Point(1, 9, None),))),
                          [("x", "cost", 9, 10)])
-        # Without a plan file a claimed cost is false only if it is below a proven bound.
+        # Without a plan file a claimed cost is false only if it lies below a proven bound.
         claimed = failed(method="x", status="claimed", claimed_cost=9)
         self.assertEqual(self.false_claims(failed(lower_bound=10), claimed), [("x", "cost", 9, 10)])
         self.assertEqual(self.false_claims(failed(lower_bound=10, options="--no-following"), claimed), [])
@@ -467,7 +469,7 @@ class FalseClaims(unittest.TestCase):
 
 
 class OverTime(unittest.TestCase):
-    """Tests quality over time."""
+    """Tests the quality of plans and bounds over time."""
 
     def points(self, *found):
         return tuple(rows.Point(*each) for each in found)
@@ -475,9 +477,9 @@ class OverTime(unittest.TestCase):
     def test_plans_of_a_run(self):
         def plans(**values):
             return anytime.plans_over_time(row(wall_s=9.0, **values))
-        self.assertEqual(plans(), [(9, 10)])  # without a trace: at the end of the run
+        self.assertEqual(plans(), [(9, 10)])  # without a trace: only at the end of the run
         self.assertEqual(plans(trace=self.points((1, 14, None), (2, 10, None))), [(1, 14), (2, 10)])
-        # The final plan is not in the trace; or the trace claims a lower cost than that of the final plan.
+        # The final plan is not in the trace, or the trace claims a lower cost than the final plan has.
         self.assertEqual(plans(trace=self.points((1, 14, None))), [(1, 14), (9, 10)])
         self.assertEqual(plans(trace=self.points((1, 14, None), (2, 8, None))), [(1, 14), (9, 10)])
         self.assertEqual(anytime.plans_over_time(failed(status="invalid", cost=3)), [])
@@ -503,7 +505,7 @@ class OverTime(unittest.TestCase):
         steps = [(step.seconds, round(3 * step.with_plan), step.common_with_plan, step.cost_ratio)
                  for step in curve.steps]
         self.assertEqual(steps, [(1, 1, 0.5, 2), (2, 2, 1, 1.75), (3, 2, 1, 1.25), (4, 3, 1, 1.25), (5, 3, 1, 1)])
-        # 8/10 and 8/20; 9/10 and 10/20
+        # Mean of 8/10 and 8/20, and mean of 9/10 and 10/20.
         self.assertAlmostEqual(curve.at(2).bound_ratio, 0.6)
         self.assertAlmostEqual(curve.at(99).bound_ratio, 0.7)
         self.assertIsNone(curve.at(1).bound_ratio)
@@ -575,7 +577,7 @@ class Logs(Folder):
 
 
 class Tracker(Folder):
-    """Tests the rows for MAPF Tracker and the best known values read from it."""
+    """Tests the rows for MAPF Tracker, and the best known values read from it."""
 
     NAME = "random-32-32-20-random-3-2"
 
@@ -601,7 +603,7 @@ class Tracker(Folder):
             self.assertIsNone(place(**values), values)
 
     def test_submission_lists_rows_and_omissions(self):
-        # Two agents; one waits for the other at the end of its path.
+        # Two agents. At the end of its path, one of them waits for the other.
         path = [[0, 2], [1, 2], [1, 2], [1, 1], [1, 1], [1, 1]]
         cheap = self.plan("a.plan.json", self.grove_plan(path, [[5, 5], [5, 6], [5, 7]]))
         found = [self.row(plan_file=cheap, lower_bound=4), self.row(seed=1, cost=7, plan_file="expensive"),
@@ -695,7 +697,7 @@ class Tracker(Folder):
 
 
 class CommonInstances(unittest.TestCase):
-    """Tests instances that are solved by all methods that solve any instance."""
+    """Tests instances that every method solves, among the methods that solve any instance."""
 
     def measured(self, found):
         return {line.method: each for line, each in
@@ -746,7 +748,7 @@ class LinesAndFamilies(unittest.TestCase):
             lines = Lines(found, [])
             return [lines.label(line) for line in lines.all]
         self.assertEqual(labels(row(omega="0"), row(method="b", omega="0")), ["a", "b"])
-        # Different problems are never in the same figure.
+        # Different problems never share a figure.
         self.assertEqual(labels(row(omega="0"), row(method="b", omega="1", problem="cts")), ["a", "b"])
 
     def test_families_are_derived_from_options(self):

@@ -30,11 +30,11 @@ GROVE = Path("build/release/bin/grove")
 FIGURES = ["cactus_cts", "cactus_mg", "comparison_cts", "comparison_mg", "omega_study", "splits_cts", "splits_mg"]
 TABLES = ["common_cts", "common_mg", "comparison_cts", "comparison_mg", "contradictions", "false_claims", "omega_study",
           "only_solver_cts", "only_solver_mg", "search_cts", "search_mg", "speedup_cts", "speedup_mg", "summary_cts", "summary_mg"]
-MAX_SECONDS = 30  # of processor time: 5 on an idle machine, more than twice that on a busy one
+MAX_SECONDS = 30  # limit on processor time: 5 s on an idle machine, more than twice that on a busy one
 
 
 def few(scenarios, **options):
-    """Returns rows of few cells and methods, because every map and number of agents is a column of panels to draw."""
+    """Returns rows of only a few configurations and methods, because each adds panels to draw."""
     found = synthetic.rows(scenarios, **({"maps": ("room-32-32-4",), "agents": (5,), "tasks": (10, 30)} | options))
     return (row for row in found if row["method"] not in ("cts-cbs-b", "cts-cbs-c", "optimal-cbs"))
 
@@ -55,7 +55,7 @@ def run_here(*arguments):
 
 
 class Elements(HTMLParser):
-    """Collects the references of a page and checks that every element is closed."""
+    """Collects the references in a page and checks that every element is closed."""
 
     EMPTY = {"meta", "link", "img", "br"}
 
@@ -89,7 +89,7 @@ class Folder(unittest.TestCase):
         return path
 
     def report(self, *arguments, run=run_here, **options):
-        """Returns the page and stderr of a report."""
+        """Runs a report and returns its page and stderr."""
         done = run(*arguments, "-o", self.folder / "out", **options)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, f"^wrote {self.folder}/out/report.html: [1-9][0-9]* rows\n$")
@@ -98,7 +98,7 @@ class Folder(unittest.TestCase):
         return page, done.stderr
 
     def assert_files_are_there(self, page):
-        """Checks that every file that the page names exists and can be downloaded from the page."""
+        """Checks that every file named in the page exists and can be downloaded from the page."""
         for name, content in Elements(page).downloads.items():
             kind, data = content.split(",")
             self.assertEqual(kind, "data:text/csv;base64")
@@ -194,16 +194,16 @@ class Reports(Folder):
                      "near, ω = 0.01: 2 of 3 solved runs are outside ω (status feasible)",
                      "any, ω = ∞: no guarantee; 1 of 2 solved runs are not proven optimal (status feasible)"):
             self.assertIn(text, page)
-        self.assertNotIn("of 1 solved runs", page)  # exact
+        self.assertNotIn("of 1 solved runs", page)  # the method "exact" has no such run
         within = {row["method"]: row["within_omega"] for row in self.table("summary_mg")}
         self.assertEqual(within, {"near": "1", "any": "", "exact": "1"})
         ratios = {row["method"]: row["mean_cost_ratio"] for row in self.table("summary_mg")}
-        # p: 104 is best, q: 102, r: 120.
+        # Best costs: p 104, q 102, r 120.
         self.assertEqual(ratios, {"near": f"{(107 / 104 + 103 / 102 + 1) / 3:.6g}",
                                   "any": f"{(105 / 104 + 1) / 2:.6g}", "exact": "1"})
 
     def test_equal_rows_give_identical_files(self):
-        """Compares reports of the same rows as JSON and CSV, in different orders, with different seeds of hash()."""
+        """Compares reports on the same rows as JSON and CSV, in different orders and with different seeds of hash()."""
         found, reports = list(few(1)), []
         for name, seed in (("results.jsonl", "1"), ("results.csv", "2")):
             page, _ = self.report(self.results(found, name), run=run, env={**os.environ, "PYTHONHASHSEED": seed})
@@ -229,7 +229,7 @@ class Reports(Folder):
                          [("bypasses: another path of the same cost", "6.5"),
                           ("costs with one more constraint (strong branching): share of cache hits", "50 %")])
         self.assertIn('alt="What nodes were split on"', page)
-        # Older tables have no such column, and baselines have no counters.
+        # Older tables lack some counters, and baselines have none.
         for counts in ("bypasses=1 splits_bar=0", None):
             page, _ = self.report(self.results([row | {"counts": counts} for row in found]))
             self.assertNotIn("What nodes were split on", page)
@@ -253,7 +253,7 @@ class Reports(Folder):
         found = [row for row in few(1, study=False) if row["omega"] == "0"]
         page, _ = self.report(self.results(found))
         self.assertNotIn("Before you compare", page)
-        self.assertNotIn("The influence", page)  # nothing to study
+        self.assertNotIn("The influence", page)  # only one limit and seed
         more = [row | {"time_limit_s": 999} for row in found if row["method"] == "mgcbs"]
         more += [row | {"seed": 7, "version": "grove 9", "instance_digest": "f00"} for row in found
                  if row["method"] == "hcbs"]
@@ -300,7 +300,7 @@ class Reports(Folder):
                          {"best baseline", "cts-cbs-a", "hcbs"})
 
     def test_results_of_other_solvers_are_reported(self):
-        """Tests success, quality over time, seeds as repetitions and commonly solved instances."""
+        """Checks success rates, quality over time, seeds as repetitions, and commonly solved instances."""
         found = list(synthetic.solver_rows(3, agents=(20, 60, 100)))
         found.append(found[0] | {"method": "turns", "solver": "mine", "status": "unsuitable", "solved": False, "cost": None,
                                  "trace": None, "error": "robots that turn"})
@@ -318,7 +318,7 @@ class Reports(Folder):
         cell = [row for row in found if (row["map"], row["agents"], row["method"]) == ("random-32-32-20", 100, "eecbs")]
         self.assertEqual((entry["instances"], entry["seeds"], entry["runs"]), ("3", "2", "6"))
         self.assertEqual(entry["success_rate"], f"{sum(row['solved'] for row in cell) / 6:.6g}")
-        # Methods that do not improve their plans have no curve.
+        # Methods that do not improve their plans have no curve over time.
         curves = self.table("anytime_mapf")
         self.assertEqual({row["method"] for row in curves}, {"auto", "lacam", "lns"})
         last = [row for row in curves if (row["panel"], row["method"], row["time_s"]) == ("empty-32-32", "lns", "30")]
@@ -328,7 +328,7 @@ class Reports(Folder):
         self.assertEqual((last[0]["common"], last[0]["mean_cost_ratio"]), ("9", f"{sum(ratios) / 18:.6g}"))
         common = self.table("common_mapf")
         self.assertEqual({row["method"] for row in common if row["agents"] == "20"}, {"auto", "eecbs", "lacam", "lns"})
-        # Without the weakest method more instances are solved by all.
+        # Without the weakest method, more instances are solved by all methods.
         self.report(self.results(found), "--method", "Grove,lacam,lns")
         self.assertEqual({row["method"] for row in self.table("summary_mapf")}, {"auto", "lacam", "lns"})
         self.assertGreater(sum(int(row["common"]) for row in self.table("common_mapf")) / 3,
@@ -358,7 +358,7 @@ class Reports(Folder):
         self.assertIn(">only claimed</th>", page)
 
     def test_logs_of_runs_are_reported(self):
-        """Tests logs written by grove solve, without results and in a folder with results."""
+        """Checks reports on logs of `grove solve`, without a table of results and in a folder with one."""
         instance = Path(__file__).resolve().parents[3] / "benchmarks/data/rooms-32x32_n5_m10.cts.json"
         for seed in (1, 2):
             subprocess.run([str(GROVE), "solve", str(instance), "--omega", "0", "--seed", str(seed), "--threads", "1", "--quiet",
@@ -381,7 +381,7 @@ class Reports(Folder):
         self.assertRegex(done.stdout, ": [0-9]+ rows, 2 logs\n$")
 
     def test_tracker_rows_and_best_known_values(self):
-        """Compares the submission with rows of grove convert, and results with the best known values."""
+        """Compares the submission with rows from `grove convert`, and results with the best known values."""
         shutil.copy(Path(__file__).resolve().parents[3] / "benchmarks/data/empty-32x32.map", self.folder / "empty-32-32.map")
         scenario = (Path(__file__).resolve().parents[3] / "benchmarks/data/empty-32x32.scen").read_text(encoding="utf-8")
         (self.folder / "empty-32-32-even-3.scen").write_text(scenario.replace("empty-32x32", "empty-32-32"), encoding="utf-8")
@@ -416,7 +416,7 @@ class Reports(Folder):
         self.assertIn("grove: warning: proofs contradict each other", stderr)
         self.assertIn(f"MAPF Tracker has a lower bound of {cost + 1}; a plan costs {cost}", page)
         self.assertIn(f"MAPF Tracker has a plan of cost {cost - 1}, below a proven lower bound: {cost} (first", page)
-        # A plan changed since the run is not submitted, and the existing file stays unchanged.
+        # A plan file that has changed since the run is not submitted, and the existing submission stays unchanged.
         before = out.read_bytes()
         for name in (3, 8):
             plan = table / f"plans/first/empty-32-32-even-3-{name}.plan.json"
@@ -432,15 +432,15 @@ class Reports(Folder):
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         self.report(path, run=run)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        # Processor time, because the machine may be busy; the report uses one thread.
+        # Processor time, because the machine can be busy. The report uses one thread.
         spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
         print(f"{path.read_text().count(chr(10)) - 1} rows: {spent:.1f} s", file=sys.stderr)
         self.assertLess(spent, MAX_SECONDS)
-        self.assertTrue((self.folder / "out/comparison_mg_3.svg").exists())  # three maps with three columns
+        self.assertTrue((self.folder / "out/comparison_mg_3.svg").exists())  # three maps in three columns
         for path in (self.folder / "out").glob("*.svg"):
             svg = path.read_text(encoding="utf-8")
             width = float(re.search(r'width="([0-9.]+)pt"', svg).group(1))
-            letters = [100 * float(scale) for scale in re.findall(r"scale\(([0-9.]+) -", svg)]  # in points
+            letters = [100 * float(scale) for scale in re.findall(r"scale\(([0-9.]+) -", svg)]  # sizes in points
             self.assertGreater(len(letters), 10, path)
             self.assertGreaterEqual(500 / width * min(letters), 10, path)
 
@@ -478,7 +478,7 @@ class Usage(Folder):
             self.assertIn("--study, --study-map, --study-agents: no rows with several omegas are left",
                           self.error_of(path, *out, *study))
         shutil.rmtree(self.folder / "out")
-        # Names of commands are names of files here.
+        # `grove report` takes the names of other commands as file names.
         self.assertEqual(self.error_of("solve", "check", *out), "solve: no such file or directory")
         self.assertFalse((self.folder / "out").exists())
 
@@ -504,7 +504,7 @@ class Usage(Folder):
         self.assertEqual(run("--help", program=link, cwd="/").returncode, 0)
 
     def copy(self):
-        """Copies only the program grove to a folder and returns its path."""
+        """Copies only the program grove to a folder and returns the path of the copy."""
         (self.folder / "bin").mkdir()
         return shutil.copy(GROVE, self.folder / "bin")
 

@@ -17,10 +17,10 @@ COLUMNS = ["instance", "method", "options", "map", "scenario", "agents", "tasks"
            "version", "machine", "ended_at", "error",
            "ranks", "threads", "memory_limit_gb", "plan_file", "instance_digest", "counts",
            "solver", "claimed_cost", "claimed_lower_bound", "claimed_s", "anytime", "trace"]
-MAPS = {"empty-32-32": 0.5, "random-32-32-20": 1.5, "room-32-32-4": 2.6}  # hardness
+MAPS = {"empty-32-32": 0.5, "random-32-32-20": 1.5, "room-32-32-4": 2.6}  # difficulty of each map
 AGENTS = (5, 10, 20)
 TASKS = (10, 20, 30, 40, 50)
-# Name: (ln of seconds on the easiest instance, growth with difficulty, share of the optimum lost)
+# Method: (ln of seconds on the easiest instance, growth with difficulty, relative excess over the optimum)
 MG_METHODS = {"auto": (-6.5, 0.85, 0.002), "cts-cbs-a": (-4.5, 1.25, 0.004),
               "cts-cbs-b": (-5.0, 0.95, 0.10), "cts-cbs-c": (-4.3, 1.05, 0.04),
               "optimal-cbs": (-3.0, 1.45, 0.0), "hcbs": (-2.5, 1.45, 0.0),
@@ -40,7 +40,7 @@ def _optimum(hardness, agents, tasks, scenario):
 
 
 def _counts(method, nodes):
-    """Returns the search counters as text, or None for baselines, which have none."""
+    """Returns the search counters as text, or None for baselines, which have no counters."""
     if not method.startswith(("auto", "cts")):
         return None
     found = {"bypasses": nodes // 9, "joint_mdd_nodes": 30 * nodes, "branching_cost_queries": 8 * nodes, "branching_cost_hits": 6 * nodes,
@@ -81,7 +81,7 @@ def _row(dice, instance, method, options, omega, shape):
 
 
 def rows(scenarios=15, maps=tuple(MAPS), agents=AGENTS, tasks=TASKS, seed=1, study=True):
-    """Yields MG-MAPF rows of eight methods; with `study` also CTS-MAPF rows of one method with four omegas."""
+    """Yields MG-MAPF rows of eight methods and, with `study`, CTS-MAPF rows of one method with four values of omega."""
     dice = random.Random(seed)
     for name in maps:
         for number in agents:
@@ -100,7 +100,7 @@ def rows(scenarios=15, maps=tuple(MAPS), agents=AGENTS, tasks=TASKS, seed=1, stu
 
 
 def _trace(dice, first_s, end_s, first_cost, cost, bound):
-    """Returns plans at growing intervals, from the first to the best, in the format of the column `trace`."""
+    """Returns plans from the first to the best, at growing intervals, in the format of the column `trace`."""
     points, seconds, at = [], first_s, first_cost
     while seconds < end_s and at > cost:
         points.append(f"{seconds:.3f}:{at}:{'-' if bound is None else bound}")
@@ -109,10 +109,10 @@ def _trace(dice, first_s, end_s, first_cost, cost, bound):
 
 
 def _solver_row(dice, place, method, seed, shape):
-    """Returns a row of classical MAPF.
+    """Returns a row for classical MAPF.
 
-    shape: (ln of seconds of the first plan, growth, cost of the first plan and of the last one over the optimum,
-    adapter, whether the solver is anytime, whether it reports a bound).
+    shape: (ln of seconds until the first plan, growth, relative excess of the first plan's cost, the same for the
+    last plan, adapter, whether the solver is anytime, whether it reports a bound).
     """
     name, hardness, scenario, agents = place
     start, growth, first, last, adapter, anytime, has_bound = shape
@@ -142,7 +142,7 @@ SOLVERS = {"auto": (-3.5, 1.9, 0.10, 0.006, "", False, True), "lns": (-4.0, 1.2,
 
 
 def solver_rows(scenarios=5, maps=("empty-32-32", "random-32-32-20"), agents=(20, 40, 60, 80, 100), seeds=(1, 2), seed=1):
-    """Yields classical MAPF rows of Grove and of three other solvers."""
+    """Yields rows of Grove and three other solvers for classical MAPF."""
     dice = random.Random(seed)
     for name in maps:
         for number in agents:

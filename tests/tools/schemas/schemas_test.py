@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests docs/schemas: files that Grove ships and writes are valid; files that Grove and grove-verify refuse are not.
+"""Tests docs/schemas: they accept files that Grove ships and writes, and refuse files that Grove and grove-verify
+refuse.
 
     schemas_test.py GROVE [GROVE_VERIFY]
 
-Exit code 77: skipped because jsonschema is not installed.
+Exits with code 77 (skipped) if jsonschema is not installed.
 """
 import copy
 import importlib.util
@@ -41,7 +42,8 @@ def validators():
 
 
 def properties(schema):
-    """Yields (key, schema) of each property that the schema describes; omits conditions, which only restrict them."""
+    """Yields (key, schema) of each property that the schema describes. Skips conditions, which only restrict
+    properties."""
     for key, value in schema.items() if isinstance(schema, dict) else []:
         if key == "properties":
             yield from value.items()
@@ -87,7 +89,7 @@ class Case(unittest.TestCase):
         self.assertEqual(found, [], what)
 
     def solve(self, instance, *options, name="x"):
-        """Solves the instance, validates the plan and each line of the log, and returns both."""
+        """Solves the instance, validates the plan and each line of the log against the schemas, and returns both."""
         plan, log = self.folder / f"{name}.plan.json", self.folder / f"{name}.jsonl"
         grove("solve", instance, "--quiet", "--threads", 1, "--output", plan, "--log", log, "--log-format", "jsonl",
               "--log-tree", 50, *options, cwd=self.folder)
@@ -122,7 +124,8 @@ class Schemas(Case):
                     self.assertTrue(described.get(word), f"{name}: {key} has no {word}")
 
     def test_references_have_no_sibling_properties(self):
-        """Checks that no schema has "$ref" next to "properties": VS Code then ignores the referenced properties."""
+        """Checks that no schema has "$ref" next to "properties", because VS Code would ignore the referenced
+        properties."""
         def check(schema, where):
             if isinstance(schema, dict):
                 self.assertFalse("$ref" in schema and "properties" in schema and isinstance(schema["$ref"], str), where)
@@ -271,17 +274,17 @@ class WrittenFiles(Case):
 
 
 class RefusedFiles(Case):
-    """Tests files that the programs and the schemas refuse."""
+    """Tests files that both the programs and the schemas must refuse."""
 
     def refused_by_verify(self, kind, value):
-        """Returns whether grove-verify cannot read the instance; the certificate is empty."""
+        """Returns whether grove-verify refuses the instance. The certificate is empty."""
         instance = self.write("broken.cts.json", value if kind == "instance" else
                               {**load(DATA / "yard.cts.json"), "roadmap": "broken.roadmap.json"})
         if kind == "roadmap":
             self.write("broken.roadmap.json", value)
         done = subprocess.run([VERIFY, instance, "/dev/null"], capture_output=True, text=True, timeout=60, cwd=self.folder)
         self.assertEqual(done.returncode, 2, done.stdout)
-        return not done.stdout.startswith("unreadable: line ")  # an error of the certificate
+        return not done.stdout.startswith("unreadable: line ")  # refused because of the certificate
 
     def assert_refused(self, kind, value):
         self.assertTrue(self.schema_errors(kind, value), "the schema accepts it")
@@ -321,7 +324,7 @@ class RefusedFiles(Case):
         return path
 
     def valid(self, kind):
-        """Returns a valid file of this kind with all keys."""
+        """Returns a valid file of this kind that has all keys."""
         if kind == "instance":
             shop = load(DATA / "shop.cts.json")
             shop["tasks"].append({"id": "begun", "cell": [4, 2], "agents": ["spare"], "duration": 9})
@@ -339,7 +342,7 @@ class RefusedFiles(Case):
                 "trace": [{"file": "{output}", "regex": "(.) (.)", "groups": ["cost", "seconds"]}]}
 
     def each_place(self, value, path=()):
-        """Yields (path, value) of each nested value; of lists only the first entry."""
+        """Yields (path, value) of each nested value, but only of the first entry of each list."""
         yield path, value
         if isinstance(value, dict):
             for key, inner in value.items():
@@ -358,7 +361,8 @@ class RefusedFiles(Case):
         return value
 
     def mutations(self, value):
-        """Yields (description, file) with misspelt keys, values of wrong types and numbers below the allowed range."""
+        """Yields (description, file) with a misspelt key, a value of a wrong type or a number below the allowed
+        range."""
         for path, inner in self.each_place(value):
             if not path:
                 continue
@@ -388,7 +392,7 @@ class RefusedFiles(Case):
             self.assert_accepted(kind, self.valid(kind))
 
     def test_unknown_keys_are_refused_and_remarks_accepted(self):
-        """Checks in every object that unknown keys are refused, and keys for remarks accepted."""
+        """Checks that every object refuses unknown keys and accepts keys for remarks."""
         for kind in ("instance", "roadmap", "plan", "change", "solver"):
             whole = self.valid(kind)
             objects = [path for path, value in self.each_place(whole) if isinstance(value, dict)]

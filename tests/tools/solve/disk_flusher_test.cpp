@@ -28,7 +28,7 @@ TEST(DiskFlusher, PrintsNothingIfAllFilesExist) {
   EXPECT_EQ(stderr_of_flushing(files), "");
 }
 
-// The message shows that it has tried to flush, and that its end has waited for this.
+// The message proves that the flusher tried to flush and that its destructor waited for this.
 TEST(DiskFlusher, ReportsTheFirstFailureOnce) {
   const TemporaryDirectory directory;
   const std::string output = stderr_of_flushing({directory / "a", directory / "b"});

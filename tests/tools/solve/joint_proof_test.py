@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests the warning about certificates that consist only of a joint search.
+"""Tests the warning about certificates that consist of a joint search only.
 
     joint_proof_test.py GROVE
 """
@@ -26,7 +26,7 @@ class JointProof(unittest.TestCase):
     grove = ""
 
     def solve(self, rows, instance):
-        """Returns standard error and the plan file."""
+        """Solves the instance and returns standard error and the plan file."""
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             (folder / "m.map").write_text(f"type octile\nheight {len(rows)}\nwidth {len(rows[0])}\nmap\n" + "\n".join(rows) + "\n")

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests output files: locks against a second run, no writes through links, permissions by the umask, messages about a
-full disk, and signals before the run has begun.
+"""Tests output files and signals.
+
+The tests cover locks against a second run, links (no writes through them), permissions according to the umask,
+messages about a full disk, and signals that arrive before the run starts.
 
     outputs_test.py GROVE
 """
@@ -19,7 +21,7 @@ from pathlib import Path
 GROVE = Path(sys.argv[1]).resolve()
 DATA = Path(__file__).resolve().parents[3] / "benchmarks/data"
 QUICK = DATA / "first.cts.json"
-TIMEOUT_S = 120  # of programs that hang
+TIMEOUT_S = 120  # time limit of programs, in case they hang
 
 
 class Outputs(unittest.TestCase):
@@ -44,7 +46,7 @@ class Outputs(unittest.TestCase):
         return running
 
     def read_until(self, running, words):
-        """Reads the output until a line contains the words; returns all lines read."""
+        """Reads the output until a line contains the words, and returns all lines read."""
         output = ""
         for line in running.stdout:
             output += line
@@ -59,7 +61,7 @@ class OneAtATime(Outputs):
         words = [word for pair in outputs.items() for word in pair]
         self.run_it("solve", QUICK, "-o", "q.plan.json")
         (self.folder / "x.plan.json").write_text("{}")
-        (self.folder / "link").symlink_to("x.plan.json")     # another name of the same file
+        (self.folder / "link").symlink_to("x.plan.json")     # a link to the same file
         running = self.start("solve", self.hard, "--omega", 0, "--time-limit", TIMEOUT_S, *words)
         self.read_until(running, "lower bound")
         for option, name in outputs.items():
@@ -153,7 +155,7 @@ class FullDisk(Outputs):
                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000)))
         part = self.folder / "x.proof.part-0-0"
         output = self.read_until(running, "lower bound")
-        while part.exists():  # until the size limit is reached
+        while part.exists():  # until the file size limit is reached
             self.assertIsNone(running.poll())
         running.send_signal(signal.SIGTERM)
         rest, _ = running.communicate(timeout=TIMEOUT_S)
@@ -174,21 +176,21 @@ class FullDisk(Outputs):
 class Signals(Outputs):
     @staticmethod
     def signal_waiting():
-        """Makes SIGUSR1, the request for a checkpoint, pending before the program starts."""
+        """Makes SIGUSR1, which requests a checkpoint, pending before the program starts."""
         signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGUSR1])
         os.kill(os.getpid(), signal.SIGUSR1)
 
     def test_checkpoint_request_before_the_run_is_served(self):
         running = self.start("solve", self.hard, "--omega", 0, "--time-limit", TIMEOUT_S, "--checkpoint", "kept",
                              preexec_fn=self.signal_waiting)
-        output = self.read_until(running, "Checkpoint of")  # the first periodic checkpoint is due after ten minutes
+        output = self.read_until(running, "Checkpoint of")  # the first periodic checkpoint would come after ten minutes
         running.send_signal(signal.SIGTERM)
         rest, _ = running.communicate(timeout=TIMEOUT_S)
         self.assertEqual(running.returncode, 0, output + rest)
         self.assertTrue((self.folder / "kept/checkpoint.grove").exists())
 
     def test_sigusr1_ends_no_command(self):
-        """Sends SIGUSR1 while the commands wait for their instance on standard input."""
+        """Sends SIGUSR1 to commands while they wait for their instance on standard input."""
         for words in (("check", "-", "none.plan.json"), ("view", "-"), ("solve", "-")):
             running = self.start(*words, stdin=subprocess.PIPE)
             while not self.catches(running.pid, signal.SIGUSR1):

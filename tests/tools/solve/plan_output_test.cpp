@@ -16,7 +16,7 @@ namespace plan_output_test {
 
 using ::testing::HasSubstr;
 
-// One agent with one route: it costs 2, or more if the agent waits first.
+// An agent with a single route. Its path costs 2, or more if the agent waits first.
 class PlanOutput : public ::testing::Test {
  protected:
   Solution waiting(Time steps) const {
@@ -56,7 +56,7 @@ TEST_F(PlanOutput, ReplacesPlansOfEqualOrHigherCost) {
   EXPECT_EQ(write(waiting(1)), std::nullopt);
   EXPECT_EQ(content(), solution_text(instance_, waiting(1)));
   Solution other = waiting(1);
-  other.lower_bound = 1;  // of its own run; the bound in the file does not raise it
+  other.lower_bound = 1;  // its own bound, although the file has a higher one
   EXPECT_EQ(write(other), std::nullopt);
   EXPECT_EQ(content(), solution_text(instance_, other));
 }
@@ -77,7 +77,7 @@ TEST_F(PlanOutput, ReplacesPlansOfAnotherInstance) {
   EXPECT_THAT(content(), HasSubstr("unknown"));
 }
 
-// The checker and the search implement the rules independently: one of the two is wrong.
+// The checker and the search implement the rules independently, so one of them must be wrong.
 TEST_F(PlanOutput, RefutesAFalseBoundByTheExistingPlan) {
   write(waiting(0));
   EXPECT_THAT(failure(without_plan(Status::kInfeasible, 0)),

@@ -32,7 +32,7 @@ TEST(SearchSummary, ListsTheCounts) {
   EXPECT_THAT(lines, Contains("Nodes         expanded 7, generated 15, trees 1"));
   EXPECT_THAT(lines, Contains("Splits        vertex-edge 5, cost 2; 3 bypasses"));
   EXPECT_THAT(lines, Contains(EndsWith("8 queries, 75 % cache hits")));
-  EXPECT_THAT(lines, Contains(EndsWith("0 queries, 0 % cache hits")));  // MDDs: no queries
+  EXPECT_THAT(lines, Contains(EndsWith("0 queries, 0 % cache hits")));  // MDDs without queries
   EXPECT_THAT(lines, Contains("Incumbents    start 1, lns 4 (cost -9)"));
 }
 

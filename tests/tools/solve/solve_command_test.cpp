@@ -31,8 +31,8 @@ std::string data(const std::string& name) {
   return std::string(GROVE_DATA) + "/" + name;
 }
 
-// Each agent can reach its destination, but not both. Only search over joint states proves this, so
-// without it a run ends only at a limit.
+// Each agent alone can reach its destination, but not both. Only a search over joint states proves
+// this, so without it a run ends only when it reaches a limit.
 constexpr const char* kPuzzleMap = "type octile\nheight 1\nwidth 5\nmap\n.....\n";
 constexpr const char* kPuzzle = R"({"map": "puzzle.map",
   "agents": [{"id": "a", "start": [0, 0]}, {"id": "b", "start": [4, 0]}],
@@ -50,7 +50,7 @@ class SolveCommand : public ::testing::Test {
     arguments.insert(arguments.begin(), "solve");
     return run_grove(arguments, options_);
   }
-  // Runs a bash command: $0 is the program, $1 the instance.
+  // Runs a bash command, in which $0 is the program and $1 the instance.
   ProcessResult in_shell(const std::string& instance, const std::string& command) const {
     return run_program({"/bin/bash", "-c", command, GROVE_PROGRAM, data(instance)}, options_);
   }
@@ -59,7 +59,7 @@ class SolveCommand : public ::testing::Test {
     return json::parse(file);
   }
   bool exists(const std::string& name) const { return std::filesystem::exists(directory_ / name); }
-  // True if a log file exists and contains this text.
+  // Returns whether a log file exists and contains this text.
   bool log_contains(const std::string& log, const std::string& text) const {
     return exists(log) && file_content(directory_ / log).find(text) != std::string::npos;
   }
@@ -234,7 +234,7 @@ TEST_F(SolveCommand, ProvesThatAPuzzleHasNoPlan) {
   EXPECT_EQ(plan("p.json")["lower_bound"], 0);
 }
 
-// The tree of the puzzle would exceed this limit within a second.
+// The tree for the puzzle would exceed this limit within a second.
 TEST_F(SolveCommand, ContinuesAtTheMemoryLimit) {
   const ProcessResult solved = solve({"puzzle.json", "--policy", "fixed", "--memory-limit", "0.03",
                                       "--time-limit", "4", "--output", "p.json"});
@@ -286,7 +286,7 @@ TEST_F(SolveCommand, ReportsInfiniteOmega) {
   EXPECT_EQ(plan("p.json")["stats"]["roots_generated"], 1);
 }
 
-// The log without times, memory and options.
+// Returns the log without times, memory and options.
 std::string timeless(const std::string& log) {
   return std::regex_replace(
       log, std::regex(R"( +[0-9]+ MB +[0-9.]+s|[0-9.]+ s\n|Memory .*\n|Options .*\n|Threads .*\n)"),
@@ -360,7 +360,7 @@ TEST_F(SolveCommand, NamesAScenariosPlanAfterItsAgents) {
   EXPECT_TRUE(exists("empty-32x32-3.plan.json"));
 }
 
-// A table indexed by time and cell would take gigabytes here.
+// A table indexed by time and cell would take gigabytes on this map.
 TEST_F(SolveCommand, KeepsTheMemoryLimitOnALargeMap) {
   ASSERT_EQ(run_grove({"generate", "map", "empty", "--width", "600", "--height", "600", "-o",
                        directory_ / "m.map"})
@@ -402,7 +402,7 @@ TEST_F(SolveCommand, RefusesInvalidArguments) {
               HasSubstr("900"));
 }
 
-// --- plan file of an earlier run ---
+// --- plan files of earlier runs ---
 
 TEST_F(SolveCommand, WithoutAPlanKeepsAValidOne) {
   solve({data("first.cts.json"), "--output", "p.json"});
@@ -490,13 +490,13 @@ TEST_F(SolveCommand, WritesAJsonLog) {
       EXPECT_THAT(what, AnyOf("individual", "wdg", "branching"));
       bound += std::int64_t(gain);
     }
-    EXPECT_EQ(bound, row["lower_bound"]);  // each rise of the bound is logged
+    EXPECT_EQ(bound, row["lower_bound"]);  // every rise of the bound is logged
     incumbents += row["event"] == "incumbent" ? 1 : 0;
     EXPECT_EQ(row["gap"].is_null(), row["incumbent"].is_null());
   }
   EXPECT_GT(incumbents, 0);
   EXPECT_EQ(log[log.size() - 3]["gap"], 0);
-  // The last counts equal the stats.
+  // The last counts in the log equal the stats of the plan.
   const json& counts = log[log.size() - 2];
   ASSERT_EQ(counts["event"], "counts");
   for (const auto& [name, count] : counts["counts"].items())
@@ -506,13 +506,14 @@ TEST_F(SolveCommand, WritesAJsonLog) {
   EXPECT_FALSE(counts.contains("ranks"));
 }
 
-// The tree as logged by the events `root` and `node`.
+// Constraint trees, reconstructed from the events `root` and `node`.
 struct LoggedTree {
-  std::map<std::int64_t, json> open;  // nodes not expanded yet
+  std::map<std::int64_t, json> open;  // nodes that have not been expanded yet
   std::int64_t expanded = 0;
   std::map<std::string, std::int64_t> splits;  // by kind
 
-  // Each node is expanded once, after its creation; children are new, and no bound falls.
+  // Checks that each node is expanded once, after its creation, that children are new, and that no
+  // child's bound is below its parent's.
   void add(const json& event) {
     if (event["event"] == "root") open[event["node"]] = event;
     if (event["event"] != "node") return;
@@ -552,7 +553,7 @@ TEST_F(SolveCommand, LogsTheTreeOnRequest) {
   }
 }
 
-// The events without times, memory, threads, options and stats.
+// Returns the events without times, memory, threads, options and stats.
 std::vector<json> timeless_events(std::vector<json> log) {
   for (json& event : log)
     for (const char* key : {"time_s", "memory_mb", "threads", "options", "stats"}) event.erase(key);
@@ -629,9 +630,9 @@ TEST_F(SolveCommand, IgnoresAPlanTruncatedByACrash) {
   EXPECT_EQ(plan("first.plan.json")["status"], "optimal");
 }
 
-// --- incumbents: from heuristics, from files, to files ---
+// --- incumbents from heuristics and from files; incumbents written to files ---
 
-// Ten agents and two doors: many better plans within a second.
+// An instance with ten agents and two doors. The search finds many better plans within a second.
 std::string doors_instance() {
   std::string agents;
   for (int i = 0; i < 8; ++i)
@@ -669,7 +670,8 @@ TEST_F(Incumbents, AreFilesThatTheCheckerAccepts) {
   EXPECT_EQ(plan(fmt::format("best-{}.plan.json", k - 1))["cost"], plan("p.json")["cost"]);
 }
 
-// The bound of B holds only for its destinations, not for the instance, whose optimum is 4.
+// The bound of method B holds only for the destinations that it chooses, not for the instance,
+// whose optimum is 4.
 TEST_F(Incumbents, OfMethodBClaimOnlyBoundsOfTheInstance) {
   directory_.write("line.map", "type octile\nheight 1\nwidth 4\nmap\n....\n");
   directory_.write("line.json", R"({"map": "line.map", "agents": [
@@ -735,7 +737,7 @@ TEST_F(Incumbents, AreRefusedAsStartIfInvalid) {
   EXPECT_FALSE(exists("doors.plan.json"));
 }
 
-// The claims of a start plan are ignored; only its paths count.
+// Only the paths of a start plan are used; its claims are ignored.
 TEST_F(Incumbents, DoNotSetABoundAsStart) {
   solve({"doors.json", "--omega", "inf", "--output", "p.json"});
   json changed = plan("p.json");

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests the Bluetooth connection with a fake bleak module whose devices are simulated cubes."""
+"""Tests the Bluetooth connection with a fake bleak module that has simulated cubes as devices."""
 import asyncio
 import sys
 import types
@@ -28,7 +28,8 @@ HANDLERS = {protocol.MOTOR: "on_motor", protocol.ID_INFORMATION: "on_id", protoc
 
 
 class Client:
-    """Imitates BleakClient of bleak 0.20: characteristics by UUID, handlers receive the characteristic first."""
+    """Imitates BleakClient of bleak 0.20, with characteristics by UUID and handlers that get the characteristic
+    first."""
 
     def __init__(self, device, disconnected_callback=None, timeout=10):
         self.device, self.cube, self.disconnected = device, device.cube, disconnected_callback
@@ -45,7 +46,7 @@ class Client:
 
     def break_off(self):
         self.is_connected = False
-        self.cube.notifying = protocol.Notifying(1, 0xff)       # settings of the connection are lost
+        self.cube.notifying = protocol.Notifying(1, 0xff)       # the settings of the connection are lost
         self.cube.on_id = self.cube.on_motor = self.cube.on_configuration = lambda data: None
         self.disconnected(self)
 

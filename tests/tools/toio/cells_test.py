@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests that orders for cubes are on cells."""
+"""Tests the reader of orders for cubes, which must be on cells."""
 import unittest
 
 import orders

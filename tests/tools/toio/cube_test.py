@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests a single simulated cube against the specification of writes and responses."""
+"""Tests a simulated cube against the specification of writes and responses."""
 import asyncio
 import unittest
 
@@ -14,7 +14,7 @@ MAT = (0, 0, 500, 500)
 
 
 class SingleCube:
-    """Holds a cube, its responses and positions, and a virtual clock."""
+    """Holds a cube, its responses and position reports, and a virtual clock."""
 
     def __init__(self, disturbances=Disturbances(noise=0.0)):
         self.world = World(MAT)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Tests whole drives with simulated cubes: all tasks are visited in the sequence of the order, without collisions."""
+"""Tests complete executions with simulated cubes: all tasks are visited in the order of the plan, without
+collisions."""
 import functools
 import io
 import json
@@ -17,7 +18,7 @@ SEEDS = range(3)
 
 
 class Watched(Driver):
-    """Records when actions end."""
+    """Records the times at which actions end."""
 
     ended = {}
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests distances, cells on mats, and paths of robots in a ring."""
+"""Tests distances, cells on mats, and the paths of robots in a ring."""
 import random
 import unittest
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Generates passing orders for cubes and drives them in virtual time."""
+"""Generates passing orders for cubes and executes them in virtual time."""
 import asyncio
 import functools
 
@@ -11,9 +11,9 @@ from grove_toio.simulate import simulate
 from grove_toio.simulated import Disturbances
 from orders import order_file
 
-PATIENCE = 240                  # virtual seconds
+PATIENCE = 240                  # time limit in virtual seconds
 
-# The simple mat has room for 7 x 5 cells, but not for robots in a ring.
+# The simple mat has room for 7 x 5 cells, which is too small for robots in a ring.
 MAT = {"round": "collection", "many": "collection"}
 
 
@@ -33,7 +33,7 @@ def run(coroutine):
 
 
 def drive(name, loss=0.0, seed=0, lifts=(), seconds=PATIENCE, kind=Driver, slip=0.05, noise=1.0, **options):
-    """Simulates a drive and returns (outcome, world)."""
+    """Simulates an execution and returns (outcome, world)."""
     return run(simulate(order(name), grid(name), Disturbances(loss, slip, noise), seed, lifts, seconds, kind,
                         **options))
 

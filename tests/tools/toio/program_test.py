@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests the program grove-toio: the demonstration, messages, exit codes."""
+"""Tests the program grove-toio: the demonstration, messages and exit codes."""
 import functools
 import json
 import signal

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Compares messages byte by byte with the example values of the toio Core Cube specification 2.4.0."""
+"""Compares messages byte by byte with the examples in the toio Core Cube specification 2.4.0."""
 import unittest
 
 from grove_toio import protocol

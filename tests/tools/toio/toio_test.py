@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs all tests of this folder: the command `grove toio`.
+"""Runs all tests in this folder, which test the command `grove toio`.
 
     toio_test.py GROVE [TEST...]
 """

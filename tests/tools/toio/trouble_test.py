@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Tests lifted, wrongly reporting and unresponsive cubes, and that drivers with planted faults are detected."""
+"""Tests lifted and unresponsive cubes and cubes with false reports, and that drivers with planted faults are
+detected."""
 import asyncio
 import unittest
 
@@ -11,7 +12,7 @@ from grove_toio.mat import BODY
 from grove_toio.simulate import make_world
 from grove_toio.simulated import Disturbances, SimulatedCube
 
-RED = "a0"                      # of the order "dense"
+RED = "a0"                      # a robot of the order "dense"
 
 
 def cell_point(name, x, y):
@@ -50,7 +51,7 @@ class Lifted(unittest.TestCase):
             self.assertFalse(outcome.completed)
             self.assertIn(f"{RED} is off the mat", outcome.waits)
             done.append(outcome.done)
-        self.assertEqual(*done)             # the other robots could not continue any further
+        self.assertEqual(*done)             # the other robots get no further
         self.check_no_robot_can_continue(done[0], outcome.waits)
 
     def check_no_robot_can_continue(self, done, waits):
@@ -73,7 +74,7 @@ class Lifted(unittest.TestCase):
             self.assertLess(distance((cube.x, cube.y), where), 1)
 
     def test_cube_put_back_in_the_way_of_another_completes(self):
-        """Puts robot `up` down on the path of `down`, which has to stop and continues once `up` is back."""
+        """Puts robot `up` down on the path of `down`, which has to stop and continues when `up` is back."""
         for seed in range(4):
             outcome, _ = self.drive([("up", 1.0, 1.5, cell_point("narrow", 0.5, 1.2))], "narrow", seed)
             self.assertTrue(outcome.completed, outcome.waits)
@@ -92,7 +93,7 @@ class WithoutResponses(SimulatedCube):
 
 
 class FalseResponses(SimulatedCube):
-    """Reports every journey as done without moving."""
+    """Reports every journey as done, but does not move."""
 
     async def write(self, data):
         journey = protocol.read_motor_write(data)
@@ -108,7 +109,7 @@ class Refusing(SimulatedCube):
 
 
 class Unresponsive(SimulatedCube):
-    """Sends no notifications after two seconds."""
+    """Sends no notifications from the third second on."""
 
     def _notify(self, handler, data):
         if asyncio.get_running_loop().time() < 2:
@@ -116,7 +117,8 @@ class Unresponsive(SimulatedCube):
 
 
 async def drive_with(kind, name, seconds, robots=None, messages=None, **attributes):
-    """Drives with cubes of class `kind`, for all robots or only for those in `robots`."""
+    """Executes an order with cubes of class `kind` for all robots, or only for those in `robots`. Returns (outcome,
+    world)."""
     order, grid = plans.order(name), plans.grid(name)
     world, cubes = make_world(order, grid, Disturbances(), 1)
     for cube in cubes.values():
@@ -191,21 +193,21 @@ class WithoutGuard(Driver):
 
 
 class WithoutOrder(WithoutGuard):
-    """Ignores `after`."""
+    """Ignores the `after` dependencies."""
 
     def after_done(self, handle, k):
         return True
 
 
 class EarlyArrival(WithoutGuard):
-    """Takes a cube within 15 units of its goal for arrived, as cubes do."""
+    """Accepts a cube within 15 units of its goal as arrived, as the cubes themselves do."""
 
     async def reach(self, handle, goal, tolerance, onward=lambda: None):
         await super().reach(handle, goal, protocol.REACHED_BOX, onward)
 
 
 class StraightRing(WithoutGuard):
-    """Drives the robots of a ring on straight paths, without regard to each other."""
+    """Drives the robots of a ring on straight paths, ignoring the other robots."""
 
     async def go_round(self, handle, ring):
         k = handle.done
@@ -226,5 +228,5 @@ class PlantedFaults(unittest.TestCase):
         self.assertTrue(any(self.touched(StraightRing, "round")))
 
     def test_order_without_the_second_guard_prevents_collisions(self):
-        """Drives without the second guard, which is for cubes moved by hand."""
+        """Executes an order without the second guard, whose purpose is to detect cubes moved by hand."""
         self.assertFalse(any(self.touched(WithoutGuard, "dense")))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Simulates control, vehicles and a monitor without a broker and in virtual time; messages may be delayed, reordered or
-lost."""
+"""Simulates control, vehicles and a monitor in virtual time, without a broker.
+
+Messages can be delayed, reordered or lost."""
 import functools
 import heapq
 import json
@@ -78,7 +79,7 @@ class Air:
         heapq.heappush(self.due, (self.now + seconds, self.number, function, arguments))
 
     def notify_monitor(self, serial, name, message):
-        """Passes a message to the monitor, in the order in which the broker receives them."""
+        """Passes a message to the monitor, in the order in which a broker would receive messages."""
         self.monitor.on_message(self.topics.topic(serial, name), json.dumps(message).encode())
 
     def send(self, robot, content):
@@ -90,10 +91,10 @@ class Air:
         self.notify_monitor(robot, name, message)
         self.control.on_state(robot, json.loads(json.dumps(message)))
 
-    # ---- the drive
+    # ---- the execution
 
     def drive(self, seconds=3000):
-        """Runs until all is done or for `seconds` virtual seconds; returns whether all is done."""
+        """Runs until all robots are done or `seconds` virtual seconds have passed. Returns whether all are done."""
         while self.now < seconds and not self.control.completed:
             self.now += TICK
             while self.due and self.due[0][0] <= self.now:

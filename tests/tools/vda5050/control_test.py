@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Tests whole drives in virtual time: despite delayed and lost messages no vehicles meet and all tasks are done."""
+"""Tests complete executions in virtual time: despite delayed and lost messages no vehicles meet and all tasks are
+done."""
 import os
 import unittest
 
@@ -11,7 +12,7 @@ NAMES = ("dense", "work", "many", "narrow", "roads", "round")
 
 
 class _Eager(Releases):
-    """Releases too early: waits for one action too few."""
+    """Releases too early, by waiting for one action too few."""
 
     def waits_for(self, name):
         after = super().waits_for(name)

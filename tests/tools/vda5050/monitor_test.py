@@ -29,7 +29,7 @@ class Watching(unittest.TestCase):
         self.receive("a", "order", order(0, 2, 4))
         self.receive("a", "state", self.state("a", 2))
         self.receive("b", "order", order(0, 1, 4))
-        self.receive("a", "state", self.state("a", 1))     # outdated
+        self.receive("a", "state", self.state("a", 1))     # an outdated message
         self.assertEqual((self.reports, self.monitor.violations), ([], 0))
 
     def test_place_released_to_two_vehicles_is_reported(self):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Tests control and simulated vehicles as the program combines them, at several paces and in virtual time. Times in the
-log are seconds of the vehicles, so that they can be compared with the times of the plan."""
+"""Tests control and simulated vehicles in the same combination as in the program, at several paces and in virtual
+time.
+
+Times in the log are in seconds of the vehicles, so that they can be compared with the times of the plan."""
 import functools
 import json
 import queue
@@ -15,7 +17,7 @@ from grove_vda5050.mqtt import Message, encode
 
 
 class Broker:
-    """Forwards messages to all connections and stores retained ones."""
+    """Forwards messages to all connections and stores retained messages."""
 
     def __init__(self):
         self.kept = {}
@@ -32,7 +34,7 @@ class Connection:
     failure = None
 
     def __init__(self, broker, topics, will=None, hello=None, pause=None):
-        """Connects to the broker. `pause()` advances the time while the inbox is empty; None if get() never waits."""
+        """Connects to the broker. `pause()` advances the time while the inbox is empty. None: get() never waits."""
         self.broker, self.topics, self.inbox, self.pause = broker, [t.split("/") for t, _ in topics], self, pause
         self.messages = queue.SimpleQueue()
         broker.connections.append(self)
@@ -62,7 +64,7 @@ class Connection:
 
 
 class Drive:
-    """Runs `trial ORDER --pace ...` without a broker and processes."""
+    """Runs `trial ORDER --pace ...` in this process, without a broker."""
 
     def __init__(self, name, *options):
         self.seconds = 0.0
@@ -87,7 +89,7 @@ class Drive:
         return self.lines[-1]["t"]
 
     def first(self, robot, action):
-        """Returns the time at which the robot had completed `action` actions."""
+        """Returns the first time at which the robot had completed `action` actions."""
         return next(line["t"] for line in self.lines if line["robot"] == robot and line["action"] >= action)
 
 
@@ -97,14 +99,15 @@ def drive(*arguments):
 
 
 def planned_ends(name):
-    """Returns {robot: (number of actions, planned end of the last one in steps)}."""
+    """Returns {robot: (number of actions, planned end of the last action in steps)}."""
     robots = json.loads(orders.order_file(name, False).read_text())["robots"]
     return {r["id"]: (len(r["actions"]), r["actions"][-1]["planned"] + r["actions"][-1]["steps"])
             for r in robots if r["actions"]}
 
 
 def lateness(one, name):
-    """Returns the delay of each robot at its end, as the page of a drive shows it, in seconds, at one second a step."""
+    """Returns the delay of each robot at its end in seconds, at one second per step, as the page of a drive log
+    shows it."""
     return {robot: one.first(robot, count) - end for robot, (count, end) in planned_ends(name).items()}
 
 
@@ -115,7 +118,7 @@ class Paces(unittest.TestCase):
             one = drive("dense", "--pace", str(pace))
             self.assertTrue(one.completed)
             self.assertAlmostEqual(one.end, one.seconds * pace, delta=3)
-            # The same latency is longer in seconds of the vehicles.
+            # At a higher pace the same latency is longer in seconds of the vehicles.
             self.assertAlmostEqual(one.end / calm.end, 1, delta=0.5)
             self.assertLess(one.seconds, calm.seconds / 2)
             self.assertEqual(one.fleet.world.collisions, [])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests releases: no place where another vehicle may be, and finally all places."""
+"""Tests releases: no place is released while another vehicle can be there, and finally all places are released."""
 import random
 import unittest
 
@@ -10,7 +10,7 @@ NAMES = ("dense", "work", "many", "narrow", "roads", "round")
 
 
 class _Eager(Releases):
-    """Releases too early: waits for one action too few."""
+    """Releases too early, by waiting for one action too few."""
 
     def waits_for(self, name):
         after = super().waits_for(name)
@@ -18,7 +18,8 @@ class _Eager(Releases):
 
 
 def walk(name, seed, kind=Releases):
-    """Lets vehicles complete released nodes in random order; returns (all done, number of places held by two)."""
+    """Lets vehicles complete released nodes in random order. Returns (whether all are done, number of places held
+    twice)."""
     order, routes = air.order(name, False), air.routes(name, False)
     releases, draw = kind(order, routes), random.Random(seed)
     reached = dict.fromkeys(routes, 0)

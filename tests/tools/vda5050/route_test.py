@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests the routes of an order: nodes, edges, tasks at nodes, and completed actions."""
+"""Tests the routes made from a passing order: nodes, edges, tasks at nodes, and completed actions."""
 import json
 import math
 import unittest

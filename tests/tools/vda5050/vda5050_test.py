@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs all tests of this folder: the command `grove vda5050`.
+"""Runs all tests in this folder, which test the command `grove vda5050`.
 
     vda5050_test.py GROVE [TEST...]
 """

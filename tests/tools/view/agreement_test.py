@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks that the page and `grove check` agree on the validity of plans. The instances are random and of all kinds; half
-of the plans are broken.
+"""Checks that the page and `grove check` agree on the validity of plans.
+
+The instances are random and of all kinds; half of the plans are broken.
 
 agreement_test.py GROVE NODE VERDICTS [--plans N] [--seed S]   VERDICTS: verdicts.ts, bundled for node
-
 """
 
 import argparse
@@ -33,14 +33,14 @@ def random_roadmap(rng):
     vertices = [{"id": f"v{i}", "at": [rng.randint(0, 20), rng.randint(0, 20)]} for i in range(count)]
     edges = [[rng.randrange(i), i] for i in range(1, count)]
     edges += [rng.sample(range(count), 2) for _ in range(rng.randint(1, count))]
-    # Parallel roads, in any direction.
+    # Adds parallel roads in random directions.
     edges += [rng.sample(edge, 2) for edge in rng.sample(edges, rng.randint(0, 2))]
     roads = [{"from": f"v{a}", "to": f"v{b}", "steps": rng.randint(1, 4), "one_way": rng.random() < 0.25} for a, b in edges]
     return {"vertices": vertices, "edges": roads}, [v["id"] for v in vertices]
 
 
 def start_on_a_road(rng, roadmap):
-    """Returns a place within a road. Returns None if there is none."""
+    """Returns a place within a road, or None if there is none."""
     long = [i for i, road in enumerate(roadmap["edges"]) if road["steps"] > 1]
     if not long:
         return None
@@ -62,7 +62,7 @@ def add_turning(rng, agent):
 
 
 def random_tasks(rng, cells, agents):
-    places = rng.sample(cells, min(len(cells), 2)) if rng.random() < 0.3 else cells  # several tasks on one cell
+    places = rng.sample(cells, min(len(cells), 2)) if rng.random() < 0.3 else cells  # often several tasks on one cell
     tasks = []
     for k in range(rng.randint(0, 4)):
         who = rng.sample([a["id"] for a in agents], rng.randint(1, len(agents)))
@@ -74,14 +74,14 @@ def random_tasks(rng, cells, agents):
 
 
 def add_working(rng, agent, cell, tasks):
-    """Lets the agent start in the middle of a task of its own."""
+    """Lets the agent start in the middle of executing a task of its own."""
     task = {"id": f"t{len(tasks)}", "cell": cell, "agents": [agent["id"]], "duration": rng.randint(1, 4)}
     agent["working"] = {"task": task["id"], "done": rng.randint(0, task["duration"] - 1)}
     tasks.append(task)
 
 
 def random_instance(rng, folder, number):
-    """Writes an instance and its map, and returns the path of the instance."""
+    """Writes an instance and its map. Returns the path of the instance."""
     on_roads = rng.random() < 0.35
     if on_roads:
         roadmap, cells = random_roadmap(rng)
@@ -112,7 +112,7 @@ def random_instance(rng, folder, number):
 
 
 def generated_instance(rng, folder, number, run_grove):
-    """Writes an instance by `grove generate` and returns its path."""
+    """Generates an instance with `grove generate` and returns its path."""
     path, seed = folder / f"{number}.cts.json", str(rng.randrange(1000))
     if rng.random() < 0.5:
         world = ["--map", folder / f"{number}.map"]
@@ -127,7 +127,7 @@ def generated_instance(rng, folder, number, run_grove):
 
 
 def features(instance):
-    """Returns the names of the features that the instance has."""
+    """Returns the names of the instance's features."""
     data = json.loads(instance.read_text())
     agents, tasks = data["agents"], data.get("tasks", [])
     cells = [str(task["cell"]) for task in tasks]
@@ -180,7 +180,7 @@ def turn(rng, plan):
 
 
 def unwind(rng, plan):
-    """Inserts up to two path entries again, in reverse order."""
+    """Inserts up to two entries of a path a second time, in reverse order."""
     agent = rng.choice(plan["agents"])
     at = rng.randrange(len(agent["path"]))
     agent["path"][at:at] = list(reversed(agent["path"][max(0, at - 2) : at]))
@@ -221,7 +221,8 @@ def rest_longer(rng, plan):
 
 
 def no_way(rng, plan):
-    """Changes a number of a path entry: a step onto a blocked cell, along another road or off the map."""
+    """Changes a number in a path entry, so that a step leads onto a blocked cell, along a different road or off the
+    map."""
     agent = rng.choice(plan["agents"])
     entry = agent["path"][rng.randrange(len(agent["path"]))]
     numbers = [i for i, part in enumerate(entry) if isinstance(part, int)]
@@ -230,7 +231,7 @@ def no_way(rng, plan):
 
 
 def rest_on_another(rng, plan):
-    """Gives one agent the path of another."""
+    """Gives one agent the path of another agent."""
     if len(plan["agents"]) > 1:
         a, b = rng.sample(plan["agents"], 2)
         a["path"] = list(b["path"])
@@ -283,7 +284,7 @@ BREAKS = [shift_step, drop_step, cut_end, teleport, swap_tails, turn, unwind, ch
 
 
 def path_lists(plan):
-    """Returns the plan as EECBS writes paths: row before column."""
+    """Returns the plan in the path format of EECBS, in which the row comes before the column."""
     lines = (
         f"Agent {i}: " + "".join(f"({y},{x})->" for x, y in agent["path"]) for i, agent in enumerate(plan["agents"])
     )
@@ -291,7 +292,7 @@ def path_lists(plan):
 
 
 def visualizer_text(rng, plan):
-    """Returns the plan as lacam3 writes it, with its claims of cost and bound, which may be wrong."""
+    """Returns the plan in the format of lacam3, with claims of cost and bound that can be wrong."""
     paths = [agent["path"] for agent in plan["agents"]]
     cells = [[path[min(t, len(path) - 1)] for path in paths] for t in range(max(map(len, paths)))]
     lines = [f"{t}:" + "".join(f"({x},{y})," for x, y in row) for t, row in enumerate(cells)]
@@ -300,7 +301,7 @@ def visualizer_text(rng, plan):
 
 
 def is_for_others(plan):
-    """Returns whether other tools can represent the plan: they have no roads, turns or work, and a path for every
+    """Returns whether other tools can represent the plan: no roads, turns or task executions, and a path for every
     agent."""
     agents = plan["agents"]
     return len(agents) > 0 and plan["lower_bound"] >= 0 and all(
@@ -320,7 +321,7 @@ class Cases:
         return subprocess.run([self.grove, *map(str, arguments)], capture_output=True, text=True)
 
     def solved(self, instance, plan):
-        """Solves the instance and returns the plan. Returns None if there is no plan."""
+        """Solves the instance and returns the plan, or None if there is none."""
         omega = self.rng.choice(["0", "0.1", "0.5", "inf"])
         limits = ("--time-limit", "0.3", "--threads", "1", "--quiet")
         self.run_grove("solve", instance, *limits, "--omega", omega, "--output", plan)
@@ -347,7 +348,8 @@ class Cases:
         self.seen.update(features(instance) + sorted({found["kind"] for found in verdict.get("violations", [])}))
 
     def compare_both(self, instance, plan):
-        """Compares the verdicts on a plan and on a broken version of it, in the format of Grove or of another tool."""
+        """Compares the verdicts on a plan and on a broken version of it, in the format of Grove or of a different
+        tool."""
         data = self.solved(instance, plan)
         if data is None:
             return

@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Opens pages of grove view in a browser: they send no requests, log no errors, and show the plan.
+"""Opens pages of grove view in a browser and checks that they send no requests, log no errors, and show the plan.
 
     browser_test.py GROVE
 
-The environment variable GROVE_GL_PAGE names gl_page.ts, bundled.
+The environment variable GROVE_GL_PAGE names the bundle of gl_page.ts.
 
-Exit codes: 0 passed, 1 failed, 77 no Chromium is installed.
-
+Exit codes: 0 passed, 1 failed, 77 skipped because Chromium is not installed.
 """
 import json
 import os
@@ -57,7 +56,7 @@ class Browser(PageTest):
         page.write_text(f"<body><script>{GL_PAGE.read_text(encoding='utf-8')}</script></body>", encoding="utf-8")
         try:
             found = self.drawn_by_webgl(page)
-        except NoAnswer:  # seen once: software rendering hung on a correct page
+        except NoAnswer:  # happened once: software rendering hung on a correct page
             found = self.drawn_by_webgl(page)
         opaque = {name: f"{r},{g},{b},255" for name, (r, g, b) in
                   {"moving": MOVING, "resting": (0x8A, 0x92, 0x9C), "collision": COLLISION, "heading": (0x1C, 0x21, 0x28)}.items()}
@@ -81,7 +80,7 @@ class Browser(PageTest):
         self.browser.settle()
         self.assertEqual(self.text(".details h2"), "red")
         self.assertTrue(self.evaluate("grove.app.following"))
-        # The tab key reaches every control, and the focus is visible.
+        # The tab key reaches every control, and the focused control is visible as such.
         reached = set()
         for _ in range(60):
             self.browser.key("Tab")
@@ -92,7 +91,7 @@ class Browser(PageTest):
                                  ".map((e) => e.tagName + ' ' + (e.title || e.ariaLabel || e.textContent))")
         self.assertGreater(len(controls), 15)
         self.assertEqual(set(controls) - reached, set())
-        # Keys in a select element act on it only.
+        # Keys pressed in a select element must not affect the player.
         before = self.evaluate("grove.app.player.time")
         self.evaluate("document.querySelector('select').focus()")
         self.browser.key("ArrowRight")
@@ -101,10 +100,10 @@ class Browser(PageTest):
 
 
 class TwoPlans(PageTest):
-    """Tests of pages with two plans side by side."""
+    """Tests pages with two plans side by side."""
 
     def both(self, one, other):
-        """Writes a page of robots a, b and c in two plans; None stands for a file without a plan."""
+        """Writes a page with two plans for robots a, b and c. None stands for a file without a plan."""
         instance = self.grid(8, 3, [{"id": name, "start": [0, y]} for y, name in enumerate("abc")],
                              [{"id": "t", "cell": [1, 1], "agents": ["b"]}, {"id": "u", "cell": [2, 1], "agents": ["b"]}])
         sequence = {"b": ["t", "u"]}
@@ -146,7 +145,8 @@ class TwoPlans(PageTest):
         self.assertEqual(self.texts(".visits .moment"), ["1", "1", "2", "3"])
         self.press("2", ".pair .moment")
         self.assertEqual(self.evaluate("grove.app.player.time"), 2)
-        # Both plans show both paths of the chosen robot: one in its colour, one dashed in the text colour.
+        # Each stage shows both paths of the chosen robot: its own in the robot's colour, the other dashed in the text
+        # colour.
         for stage in self.evaluate("grove.stages.map(({element}) => (({x, y, width, height}) => [x, y, width, height])"
                                    "(element.getBoundingClientRect()))"):
             x, y, width, height = map(round, stage)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each kind of violation, and valid plans.
+// Tests each kind of violation, and valid plans.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { check, Checker } from "../../../tools/view/page/check";
@@ -25,10 +25,10 @@ test("collisions are found", () => {
   const meet = (a: string, b: string) => found(kGrid, two, [], [{ path: a }, { path: b }]);
   assert.deepEqual(meet("@0;3E", "@3;3W"), ["swap 2"]);
   assert.deepEqual(meet("@0;E.2E", "@3;3W"), ["vertex 2"]);
-  // A robot at rest on the path of another.
+  // A robot rests on the path of another robot.
   assert.deepEqual(found(kGrid, [{ id: "a", start: 1, goal: 1 }, { id: "b", start: 0, goal: 3 }], [],
     [{ path: "@1;" }, { path: "@0;3E" }]), ["vertex 1"]);
-  // Following and rotating are not collisions.
+  // Neither following nor rotating is a collision.
   assert.deepEqual(found(kGrid, [{ id: "a", start: 1, goal: 2 }, { id: "b", start: 0, goal: 1 }], [],
     [{ path: "@1;E" }, { path: "@0;E" }]), []);
 });
@@ -46,7 +46,7 @@ test("wrong starts, jumps and blocked cells are found", () => {
   assert.deepEqual(one("@1;2E"), ["start 0"]);
   assert.deepEqual(one("@0;@2;E"), ["jump 1"]);
   assert.deepEqual(one("@0;ESN2E"), ["jump 2"], "into the blocked cell");
-  // From the right edge to the left edge: consecutive numbers, but not neighbours.
+  // From the right edge to the left edge of the next row: consecutive numbers, but not neighbours.
   assert.ok(found(kGrid, [{ id: "a", start: 3, goal: 4 }], [], [{ path: "@3;E" }]).includes("jump 1"));
 });
 
@@ -83,7 +83,7 @@ test("wrong costs and claims are found", () => {
 });
 
 test("omega is exact in all notations", () => {
-  const cost = 100_001; // above a bound of 100,000 by a hundred-thousandth of it
+  const cost = 100_001; // exceeds the bound of 100,000 by a hundred-thousandth
   const claim = (status: string, omega: string) => found(kGrid, [kOne], [],
     [{ path: `@0;${cost - 3}.3E`, cost }], { cost, status, lower_bound: cost - 1, omega });
   assert.deepEqual(claim("bounded", "1e-05"), []);
@@ -97,7 +97,7 @@ test("moves against one-way roads are found", () => {
   const go = (start: number, goal: number, path: string) =>
     found(kRoads, [{ id: "a", start, goal }], [], [{ path }]);
   assert.deepEqual(go(0, 2, "@0;@3;+@1;@5;@2;"), []);
-  assert.deepEqual(go(1, 0, "@1;@4;-@0;"), ["jump 1", "jump 2", "jump 3"]); // against the one way
+  assert.deepEqual(go(1, 0, "@1;@4;-@0;"), ["jump 1", "jump 2", "jump 3"]); // against the direction
   assert.deepEqual(go(2, 1, "@2;@5;@1;"), []);
   assert.deepEqual(go(2, 2, "@2;@5;@2;"), [], "turning back on a road of both ways");
   assert.deepEqual(go(0, 1, "@0;@1;"), ["jump 1"], "no step of three");
@@ -141,7 +141,8 @@ test("a long path with many tasks does not block the page", (context) => {
   const tasks = Array.from({ length: 64 }, (_, k) => ({ id: `t${k}`, place: k % 4, agents: [0] }));
   const m = model(kGrid, [kOne], tasks, [{ path: `@0;${"EW".repeat(200_000)}3E` }]);
   const checker = new Checker(m, m.plans[0]);
-  // With a clock on which each part takes a millisecond, the check stops in time and has many parts.
+  // With a clock on which each part takes a millisecond, the check pauses in time and needs many
+  // parts.
   let time = 0;
   context.mock.method(performance, "now", () => time++);
   let steps = 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Differences between two plans: costs, first different moment, missing paths.
+// Tests differences between two plans: costs, first time at which they differ, missing paths.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { App } from "../../../tools/view/page/app";
@@ -7,7 +7,7 @@ import { partingTime, type Comparison } from "../../../tools/view/page/compare";
 import { readModel } from "../../../tools/view/page/read";
 import { data, kGrid, model, type AgentData } from "./models";
 
-// Two plans of the same robots.
+// Returns the comparison of two plans for the same robots.
 function comparison(agents: AgentData[], tasks: object[], one: object[], other: object[]): Comparison {
   const both = data(kGrid, agents, tasks, one);
   both.plans.push({ name: "other", claims: {}, agents: other });

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests every control of a page by keyboard, mouse and touch.
+"""Tests every control of a page with keyboard, mouse and touch.
 
     controls_test.py GROVE
 
-Exit codes: 0 passed, 1 failed, 77 no Chromium is installed.
-
+Exit codes: 0 passed, 1 failed, 77 skipped because Chromium is not installed.
 """
 from pages import DATA, PageTest, main
 
@@ -68,7 +67,7 @@ class Controls(PageTest):
         self.wait_for("!grove.app.player.playing")
         self.assertEqual(self.state("player.time"), 35, "it restarts and stops at the end")
         self.keys("l", " ")
-        self.wait_for("(window.latest ?? 0) > (window.latest = grove.app.player.time)")  # it has restarted
+        self.wait_for("(window.latest ?? 0) > (window.latest = grove.app.player.time)")  # it has started again
         self.assertTrue(self.state("player.playing"), "a loop does not end")
 
     def test_wheel_zooms_and_drag_pans(self):
@@ -152,7 +151,7 @@ class Controls(PageTest):
             self.assertGreater(self.evaluate("grove.stages[0].shown().heat.reduce((a, b) => a + b, 0)"), 0.9, kind)
             colours = [colour for _, colour in self.browser.look().getcolors(1 << 24)]
             near = min(sum(abs(a - b) for a, b in zip(colour, HEAT)) for colour in colours)
-            self.assertLess(near, 150, kind)  # the heat map is translucent on the floor
+            self.assertLess(near, 150, kind)  # the heat map lies translucent on the floor
         self.choose_option("Heat map", "none")
         self.assertIsNone(self.evaluate("grove.stages[0].shown().heat"))
 
@@ -168,7 +167,7 @@ class Controls(PageTest):
         self.go(30)
         self.press("blue waits", ".row")
         self.assertEqual((self.text(".details h2"), f"step {self.state('player.time')}"), ("blue", time))
-        # A robot selected from the list keeps the focus in the list.
+        # A robot that is selected in the list keeps the focus there.
         self.keys("Escape")
         self.evaluate("(row => (row.focus(), row.click()))(document.querySelector('.row'))")
         self.browser.settle()

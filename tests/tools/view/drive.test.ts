@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Columns and log of a drive, and positions of robots between two observations.
+// Tests the columns and the log of a drive, and robot positions between two observations.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -86,7 +86,7 @@ test("moving robots go straight, standing robots wait", () => {
   assert.deepEqual(at(8.5), [2.5, 0.5]);
   assert.deepEqual(at(8.925), [3, 0.5]);
   assert.deepEqual(at(100), [3.5, 0.5]);
-  assert.deepEqual([now.xs[1], now.ys[1]], [0.5, 1.5]); // not seen yet: at its start
+  assert.deepEqual([now.xs[1], now.ys[1]], [0.5, 1.5]); // not observed yet, so at its start
 });
 
 test("of lines with one time the last one counts", () => {
@@ -96,7 +96,7 @@ test("of lines with one time the last one counts", () => {
     let t = draw(3);
     for (let i = 0; i < 8; ++i) {
       events.push({ t, x: i % 5 });
-      t += draw(3); // 0, 1 or 2 seconds later
+      t += draw(3); // 0, 1 or 2 seconds after the previous event
     }
     const { model, drive } = read(...events.map((e) => line(e.t, "a", [e.x, 0], 0, "moving")));
     const now = new DriveNow(model, drive);
@@ -140,7 +140,7 @@ test("wrong lines are skipped and counted", () => {
     const one = after(...events);
     assert.match(one.firstTrouble, expected);
     assert.equal(one.leftOut, 1);
-    assert.equal(one.drive.end, 9); // the log continues
+    assert.equal(one.drive.end, 9); // lines after the wrong line are read
   };
   wrong(/^line 2: robot: expected a robot that the first line names/, { ...good, robot: "z" });
   wrong(/^line 2: state: expected one of waiting/, { ...good, state: "asleep" });
@@ -209,7 +209,7 @@ test("delays refer to the next action", () => {
     line(0, "a", [0, 0], 0, "moving"), line(2.5, "a", [1, 0], 1, "moving"), line(9, "a", [3, 0], 3, "done"));
   const app = new DriveApp(model, order, drive, false);
   assert.deepEqual([0, 1, 2, 3, 6.5, 9, 20].map((time) => lateness(app, 0, time)), [0, 0, 1, 1, 4.5, 6, 6]);
-  assert.equal(mostLate(app, 6), 5); // b, which should have ended its first action at 1
+  assert.equal(mostLate(app, 6), 5); // of robot b, which should have ended its first action at 1
   assert.equal(lateSentence(app, 0, 1), "In time: at 1 s a step, the plan ends its next action at 0:01.");
   assert.equal(lateSentence(app, 0, 20), "0:06 late: at 1 s a step, the plan ends its last action at 0:03.");
 });
@@ -225,7 +225,7 @@ test("live time follows the log until the user goes back", () => {
   }
   assert.ok(Math.abs(player.time - (player.end - 1)) < 0.2);
   for (let i = 0; i < 40; ++i) player.advance(0.1);
-  assert.equal(player.time, player.end); // nothing comes any more: the last line is shown, too
+  assert.equal(player.time, player.end); // without new lines the time reaches the last one
   player.go(50);
   assert.equal(player.live, false);
   player.advance(1);

@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests grove view --drive in a browser: drives that have ended or continue, and hostile logs.
+"""Tests `grove view --drive` in a browser, with logs that have ended, logs that still grow, and hostile logs.
 
     drive_page_test.py GROVE
-
 """
 import contextlib
 import json
@@ -117,11 +116,11 @@ class DrivePages(pages.PageTest):
             self.go(t)
             self.assertEqual(self.browser.evaluate("grove.stages[0].frame.mark(0)"), sign)
             seen.add(self.around_the_robot())
-        self.assertEqual(len(seen), 6)  # all signs are painted, and all differ
+        self.assertEqual(len(seen), 6)  # all states differ visibly
         self.quiet()
 
     def around_the_robot(self):
-        """Returns the pixels of the label canvas at the edge of the robot, where signs are."""
+        """Returns the pixels of the label canvas at the edge of the robot, where the signs are."""
         return self.browser.evaluate("""(() => {
           const {camera, frame, element} = grove.stages[0];
           const at = camera.toView(frame.xs[0], frame.ys[0]);
@@ -152,7 +151,7 @@ class DrivePages(pages.PageTest):
         self.assertFalse((self.folder / "drive.html").exists())
 
     def test_robots_on_a_roadmap_are_at_its_vertices(self):
-        """Checks metres of the roadmap with y up: a robot at a vertex is shown where the vertex is painted."""
+        """Checks that metres have y up: a robot at a vertex is shown where the vertex is painted."""
         self.instance_file = pages.DATA / "yard.cts.json"
         self.run_grove("solve", self.instance_file, "--quiet", "--threads", "1", "--output", self.plan_file)
         yard = json.loads((pages.DATA / "yard.roadmap.json").read_text())
@@ -196,7 +195,7 @@ class DrivePages(pages.PageTest):
 
     @contextlib.contextmanager
     def server(self, *words):
-        """Runs a server, yields its address and ends it by SIGINT."""
+        """Runs a server, yields its address and ends it with SIGINT."""
         command = [self.grove, "view", self.instance_file, self.plan_file, "--drive", self.log, "--follow", *words]
         with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
             try:
@@ -218,8 +217,8 @@ class DrivePages(pages.PageTest):
             refused.exception.close()
 
     def test_server_sends_without_compression(self):
-        """Checks that httplib does not compress a long log, which would take seconds, although the browser accepts
-        it."""
+        """Checks that httplib does not compress a long log, because that would take seconds. The browser would
+        accept it."""
         self.begin(*(line(t, "a", [0, 0], 0, "moving") for t in range(1000)))
         with self.server() as address:
             for path in ("", "log?from=0&file="):
@@ -234,14 +233,14 @@ class DrivePages(pages.PageTest):
             port = re.search(r":(\d+)/", address)[1]
             for _ in range(5):
                 with urllib.request.urlopen(address) as answer:
-                    answer.read()  # until the server closes the connection
+                    answer.read()  # returns only when the server closes the connection
             words = [self.grove, "view", self.instance_file, self.plan_file, "--drive", self.log, "--follow", "--port", port]
             second = subprocess.run(words, capture_output=True, text=True, timeout=120)
             self.assertEqual(second.returncode, 2)
             self.assertIn("--port: is in use", second.stderr)
-        with self.server("--port", port) as again:  # free again at once
+        with self.server("--port", port) as again:  # the port is free again immediately
             self.assertIn(f":{port}/", again)
-            self.assertNotEqual(again, address)  # another token
+            self.assertNotEqual(again, address)  # a new token
 
     def follow(self, address):
         self.browser.call("Page.navigate", url=address)
@@ -260,7 +259,7 @@ class DrivePages(pages.PageTest):
         self.browser.evaluate("document.querySelector('.golive').click()")
         self.until("Live.")
         whole = line(50, "a", [3, 0], 3, "moving")
-        self.add(whole[:30])  # a line arrives in two parts
+        self.add(whole[:30])  # the line arrives in two parts
         self.wait_for_two_requests()
         self.assertEqual(self.browser.evaluate("grove.app.player.end"), 40)
         self.add(whole[30:])
@@ -270,7 +269,7 @@ class DrivePages(pages.PageTest):
         self.add(line(60, "a", [4, 0], 4, "done"), line(60, "b", [0, 1], 0, "done"))
         self.until("The drive has ended.")
         self.until("2 of 2 done")
-        self.begin(line(0, "a", [0, 0], 0, "moving"))  # another drive
+        self.begin(line(0, "a", [0, 0], 0, "moving"))  # a different execution
         self.until(lambda: self.browser.evaluate("grove.app.player.end") == 0)
         self.assertNotIn("left out", self.text(".strip"))
         self.log.write_text("no drive\n")
@@ -279,7 +278,7 @@ class DrivePages(pages.PageTest):
         self.assertTrue(all(url.startswith(address) for url in self.browser.requests), self.browser.requests)
 
     def drag_the_slider(self, part):
-        """Drags the slider by mouse from its end to a part of its length."""
+        """Drags the slider with the mouse from its end to a fraction of its length."""
         box = self.browser.evaluate("(({x, y, width, height}) => [x, y, width, height])"
                                     "(document.querySelector('.time').getBoundingClientRect())")
         y = box[1] + box[3] / 2
@@ -296,11 +295,11 @@ class DrivePages(pages.PageTest):
             file.write("".join(lines))
 
     def until(self, what):
-        """Waits for a text in the top line, or for a condition."""
+        """Waits until the top line contains a text, or until a condition holds."""
         self.browser.wait_until(what, (lambda: what in self.text(".strip")) if isinstance(what, str) else what)
 
     def wait_for_two_requests(self):
-        """Waits until the page has requested the log twice, so that it has processed the first answer."""
+        """Waits until the page has requested the log twice, because it has then processed the first answer."""
         before = len(self.browser.requests)
         self.browser.wait_until("more requests", lambda: len(self.browser.requests) >= before + 2)
 

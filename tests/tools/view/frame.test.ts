@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robots that are red at a moment: those that collide or violate a rule.
+// Tests which robots are red at a time: those that collide or violate a rule.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { check } from "../../../tools/view/page/check";
@@ -7,7 +7,7 @@ import { planFacts } from "../../../tools/view/page/facts";
 import { Frame } from "../../../tools/view/page/frame";
 import { kGrid, kRoads, model } from "./models";
 
-// {time: red robots}, in half steps, without times that have none.
+// Returns {time: red robots} in half steps, without the times that have none.
 function red(...parts: Parameters<typeof model>): Record<number, string> {
   const m = model(...parts);
   const [plan] = m.plans;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A page that paints robots by WebGL and reports the colours at their positions.
+// A page that paints robots with WebGL and reports the colours at their positions.
 
 import { Camera } from "../../../tools/view/page/camera";
 import { kLight } from "../../../tools/view/page/colors";
@@ -10,7 +10,7 @@ import { kGrid, model } from "./models";
 
 const kSize = 400;
 
-// A robot that moves to the right, one that turns on its place, and two that collide at 2.
+// A robot that moves to the right, one that turns on its place, and two that collide at time 2.
 const shown = model(
   kGrid,
   [{ id: "a", start: 0 }, { id: "b", start: 3, turn: 1, angle: "2" }, { id: "c", start: 8 }, { id: "d", start: 10 }],
@@ -49,7 +49,7 @@ function pixels(): Record<string, string> {
   return seen;
 }
 
-// Milliseconds per frame with `count` robots, for the page's own code.
+// Returns the time per frame in milliseconds with `count` robots, spent in the page's own code.
 function milliseconds(count: number): number {
   const side = Math.ceil(Math.sqrt(2 * count));
   const agents = Array.from({ length: count }, (_, i) => ({ id: `a${i}`, start: 2 * i }));

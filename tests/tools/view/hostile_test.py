@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests hostile or corrupt pages: none of their scripts runs, and the page reports the error.
+"""Tests hostile or corrupt pages: they run no injected script, and they report the error.
 
     hostile_test.py GROVE
 
-Exit codes: 0 passed, 1 failed, 77 no Chromium is installed.
-
+Exit codes: 0 passed, 1 failed, 77 skipped because Chromium is not installed.
 """
 import json
 import re
@@ -23,7 +22,7 @@ IDS = [
 
 
 def data(**changes):
-    """Returns the data of a page with one robot on a map."""
+    """Returns the data of a page with one robot on a map, after `changes`."""
     return {"format": "grove view 1", "instance": "test", "world": {"kind": "grid", "width": 4, "height": 3, "free": "12"},
             "agents": [{"id": "a", "start": 0}], "tasks": [], "plans": [{"name": "p", "claims": {}, "agents": [{"path": "@0;3E"}]}],
             **changes}

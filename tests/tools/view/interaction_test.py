@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Simulates a user of pages with 10 to 10,000 robots and prints the times that this takes.
+"""Simulates a user of pages with 10 to 10,000 robots and prints the measured times.
 
     interaction_test.py GROVE [--all] [--pictures FOLDER]
 
-With --all also pages with 100 and 10,000 robots, and with time limits: a page is loaded within 3 seconds, and its own
-code takes less than 8 ms a frame. Prints a row for each size. Exit codes: 0 passed, 1 failed, 77 no Chromium is installed.
-
+--all adds pages with 100 and 10,000 robots, and time limits: loading a page takes at most 3 seconds, and its own
+code less than 8 ms per frame. Prints a row for each size. Exit codes: 0 passed, 1 failed, 77 skipped because
+Chromium is not installed.
 """
 import json
 import random
@@ -17,10 +17,10 @@ from pathlib import Path
 from pages import PageTest, main
 
 PICTURES = None
-SIZES = ((10, 20, 100), (1000, 200, 500))  # robots, side of the map, steps
+SIZES = ((10, 20, 100), (1000, 200, 500))  # number of robots, side of the map in cells, steps
 ALL_SIZES = ((10, 20, 100), (100, 50, 300), (1000, 200, 500), (10_000, 1000, 500))
-IS_MEASURED = False  # whether time limits are checked
-SECONDS = 1  # duration of playing
+IS_MEASURED = False  # whether time limits are enforced
+SECONDS = 1  # duration for which the plan is played
 
 FRAMES = """new Promise((done) => {
   grove.frames.length = 0;
@@ -38,8 +38,8 @@ FRAMES = """new Promise((done) => {
 
 
 def synthetic(folder, count, side, steps):
-    """Writes an instance and its plan: robots move to and fro, each in its own part of a row, and every third has a
-    task. Returns both paths."""
+    """Writes an instance and its plan and returns both paths. Robots move to and fro, each in its own part of a row;
+    every third robot has a task."""
     rng = random.Random(count)
     name = f"b{count}"
     (folder / f"{name}.map").write_text(f"type octile\nheight {side}\nwidth {side}\nmap\n" + ("." * side + "\n") * side)
@@ -75,7 +75,7 @@ class Interaction(PageTest):
         self.browser.settle()
 
     def play(self, count):
-        """Plays and pauses the plan. Returns the frame rate and the times of frames."""
+        """Plays the plan and pauses it. Returns the frame rate and the times of frames."""
         self.wait_for("grove.app.viewed.every((v) => v.checker.done && v.waits.done)")
         self.browser.settle()
         self.assertIn("valid", self.text(".verdict"))
@@ -98,7 +98,7 @@ class Interaction(PageTest):
         self.assertEqual(self.text(".details h2"), f"robot-{count - 1}")
         self.assertIn("Now:", self.text(".now"))
         self.picture(f"{count}-chosen")
-        self.key("Escape", "Escape")  # first in the search field, then on the page
+        self.key("Escape", "Escape")  # first for the search field, then for the page
         self.assertEqual(self.text(".details h2"), "")
 
     def zoom_in(self, count):
@@ -117,7 +117,7 @@ class Interaction(PageTest):
         self.open(page, f"#t=37&agent=robot-{count // 2}")
         self.assertTrue(self.text(".clock").startswith("37 /"))
         self.assertEqual(self.text(".details h2"), f"robot-{count // 2}")
-        # The address follows the time and the selection.
+        # The address reflects the time and the selection.
         self.key("ArrowRight")
         self.wait_for(f"location.hash === '#t=38&agent=robot-{count // 2}'")
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Events of logs, for tests.
+// Log events for tests.
 
 export function lines(events: object[]): string {
   return events.map((event) => `${JSON.stringify(event)}\n`).join("");

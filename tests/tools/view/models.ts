@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small models for tests, in the format of the page's data.
+// Small models for tests, in the data format of the page.
 
 import { readModel } from "../../../tools/view/page/read";
 import type { Model } from "../../../tools/view/page/model";
@@ -10,9 +10,9 @@ export interface AgentData {
   [key: string]: unknown;
 }
 
-// A grid of 4 x 3 cells, all free except number 5.
+// A grid of 4 x 3 cells, all of them free except cell 5.
 export const kGrid = { kind: "grid", width: 4, height: 3, free: "5 1 6" };
-// A -3-> B (two places between), one way; B = C, two steps, both ways.
+// A -3-> B: one-way, with two places between. B = C: two-way, two steps.
 export const kRoads = {
   kind: "roadmap",
   vertices: [["A", 0, 0], ["B", 3, 0], ["C", 3, 2]],

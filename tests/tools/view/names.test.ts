@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ids as displayed.
+// Tests how ids are displayed.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { labelsOf, nameOf } from "../../../tools/view/page/names";

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Provides the test case of pages of grove view: it makes pages, shares one browser, and reads what a page shows."""
+"""Provides a base class for tests of grove view pages. It writes pages, shares one browser, and reads what a page
+shows."""
 
 import json
 import re
@@ -19,7 +20,7 @@ MOVING = (0x00, 0x72, 0xB2)
 COLLISION = (0xD0, 0x02, 0x1B)
 CHOSEN = (0xB4, 0x00, 0x9E)
 
-# Colour at the centre of each robot on the canvas of robots.
+# Returns the colour at the centre of each robot on the canvas of robots.
 COLOURS = """grove.stages.flatMap(({camera, frame, element}, plan) => {
   const canvas = element.querySelectorAll("canvas")[1];
   const copy = Object.assign(document.createElement("canvas"), {width: canvas.width, height: canvas.height});
@@ -33,7 +34,7 @@ COLOURS = """grove.stages.flatMap(({camera, frame, element}, plan) => {
 
 
 class PageTest(unittest.TestCase):
-    """Test case with one browser for all tests of a file and a folder for each test."""
+    """Provides one browser for all tests in a file, and a folder for each test."""
     grove = Path("build/release/bin/grove")
 
     @classmethod
@@ -57,7 +58,7 @@ class PageTest(unittest.TestCase):
         return plan
 
     def page_of(self, data):
-        """Writes a page with this data: text, or an object to be written as JSON."""
+        """Writes a page with this data, which is text or an object to be written as JSON."""
         page = self.page(DATA / "first.cts.json")
         text = data if isinstance(data, str) else json.dumps(data).replace("<", "\\u003c")
         block = re.compile(r'(<script type="application/json" id="grove-data">).*?(</script>)', re.S)
@@ -65,7 +66,7 @@ class PageTest(unittest.TestCase):
         return page
 
     def grid(self, width, height, agents, tasks=(), rows=None):
-        """Writes an instance on a map and returns its path. Without `rows` the map is free."""
+        """Writes an instance on a map and returns its path. Without `rows` all cells are free."""
         rows = rows or ["." * width] * height
         (self.folder / "m.map").write_text(f"type octile\nheight {height}\nwidth {width}\nmap\n" + "\n".join(rows) + "\n",
                                            encoding="utf-8")
@@ -77,7 +78,8 @@ class PageTest(unittest.TestCase):
         return path
 
     def plan(self, paths, name="plan.json", **of_agents):
-        """Writes a plan with correct costs and returns its path. paths: {id: path}; `work` and `sequence` by id."""
+        """Writes a plan with correct costs and returns its path. paths: {id: path}. of_agents: `work` and
+        `sequence`, by id."""
         def rest(path):
             return max((t for t in range(1, len(path)) if path[t] != path[t - 1]), default=0)
         agents = []
@@ -97,7 +99,7 @@ class PageTest(unittest.TestCase):
         self.browser.settle()
 
     def see(self, page, fragment="", size=(1280, 800)):
-        """Visits a page and returns the shares of colours. Asserts that the page sends no requests, logs nothing,
+        """Visits a page and returns the shares of its colours. Asserts that the page sends no requests, logs nothing
         and is not blank."""
         seen = self.browser.visit(page, fragment, size)
         self.assertEqual(seen.console, [])
@@ -120,7 +122,7 @@ class PageTest(unittest.TestCase):
         return self.evaluate(f"[...document.querySelectorAll({json.dumps(selector)})].map((e) => e.textContent)")
 
     def press(self, text, selector="button"):
-        """Clicks the first button that contains the text."""
+        """Clicks the first button whose label contains the text."""
         found = self.evaluate(f"[...document.querySelectorAll({json.dumps(selector)})]"
                               f".find((e) => e.textContent.includes({json.dumps(text)}))?.click() ?? 'none'")
         self.browser.settle()
@@ -139,21 +141,21 @@ class PageTest(unittest.TestCase):
         self.browser.wait_until(script, lambda: self.evaluate(script))
 
     def wait_until_known(self):
-        """Runs the checks and the analysis of waits to their end, without pauses for frames."""
+        """Runs the checks and the analysis of waits to their end, without pausing for frames."""
         self.wait_for("grove.app.work(500), grove.app.viewed.every((v) => v.checker.done && v.waits.done)")
         self.browser.settle()
 
     def colours(self):
-        """Returns {(id, number of the plan): painted colour}."""
+        """Returns {(id, index of the plan): painted colour}."""
         return {(agent, plan): tuple(colour) for agent, plan, colour in self.evaluate(COLOURS)}
 
     def red(self, plan=0):
-        """Returns the ids of the robots that are painted red, for example "ab"."""
+        """Returns the ids of the robots painted red as one string, for example "ab"."""
         return "".join(sorted(agent for (agent, of), colour in self.colours().items() if colour == COLLISION and of == plan))
 
 
 def main(**settings):
-    """Runs the tests of the calling file: PROGRAM GROVE [options of unittest]."""
+    """Runs the tests in the calling file: PROGRAM GROVE [options of unittest]."""
     if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
         PageTest.grove = Path(sys.argv.pop(1)).resolve()
     if CHROMIUM is None:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All colours are in palette.json, and can be distinguished.
+// Tests that all colours are defined in palette.json and can be distinguished.
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
@@ -29,7 +29,7 @@ test("styles and pictures name values of the palette", () => {
   assert.ok(count > 90);
 });
 
-// Relative luminance of a colour by WCAG, from 0 to 1.
+// Returns the relative luminance of a colour according to WCAG, from 0 to 1.
 function luminance(color: string): number {
   const [r, g, b] = [1, 3, 5].map((at) => parseInt(color.slice(at, at + 2), 16) / 255)
     .map((v) => (v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4));
@@ -55,7 +55,8 @@ test("text and shapes have contrast", () => {
   }
 });
 
-// Colours as seen by people without one kind of cone (Vienot, Brettel and Mollon 1999), in linear RGB.
+// Matrices for colours as people without one type of cone see them (Vienot, Brettel and Mollon
+// 1999), in linear RGB.
 const kLack = {
   red: [[0.11238, 0.88762, 0], [0.11238, 0.88762, 0], [0.00401, -0.00401, 1]],
   green: [[0.29275, 0.70725, 0], [0.29275, 0.70725, 0], [-0.02234, 0.02234, 1]],

@@ -4,8 +4,7 @@
 
     planted_test.py GROVE
 
-Exit codes: 0 passed, 1 failed, 77 no Chromium is installed.
-
+Exit codes: 0 passed, 1 failed, 77 skipped because Chromium is not installed.
 """
 import json
 
@@ -25,7 +24,7 @@ def turning(x, y, heading, **more):
 
 class Planted(PageTest):
     def check(self, instance, plan, red, event):
-        """Asserts the red robots and the event. red: {time: ids}; event: its time and text."""
+        """Asserts which robots are red and which event is listed. red: {time: ids}; event: (time, text)."""
         self.open(self.page(instance, plan), size=(800, 520))
         self.wait_until_known()
         self.assertEqual(self.text(".verdict"), "✗ 1 problem")
@@ -37,7 +36,7 @@ class Planted(PageTest):
         self.assert_silent()
 
     def check_event(self, time, text, red):
-        """Asserts that the list of events has the event, and that a click goes to its time."""
+        """Asserts that the event is in the list and that a click on it goes to its time."""
         self.go(0)
         self.press("Events", ".tabs button")
         self.choose_option("Kind of events", "wrong")
@@ -48,7 +47,7 @@ class Planted(PageTest):
         self.assertIn(self.text(".details h2"), red[time])
         self.assertEqual(self.texts(".details h4.bad"), ["Problems"])
 
-    # The third robot, c, has no fault.
+    # The third robot, c, is never at fault.
     def grid_of(self, *agents):
         return self.grid(6, 4, [*agents, {"id": "c", "start": [0, 3]}])
 
@@ -134,7 +133,7 @@ class Planted(PageTest):
         self.go(2)
         self.assertEqual((self.red(0), self.red(1)), ("", "ab"))
 
-    # Plans in the formats of other programs.
+    # Plans in the formats of other programs:
 
     def other(self, text):
         (self.folder / "other.txt").write_text(text, encoding="utf-8")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tree of a certificate, its texts, and navigation.
+// Tests the tree of a certificate, its texts, and the navigation in it.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -89,7 +89,7 @@ test("splits have their reasons", () => {
   assert.match(why("later 0 4 1 4 0"), /together cost at most 8, and lemma 0 says that they cost more/);
   for (const none of ["0 bar 4 1 1 | 0 bar 4 1 1", "0 bar 4 1 1 | 1 rest 4 1", "0 norest 3 7 | 1 rest 3 7"])
     assert.equal(why(`split ${none}`), "", none);
-  // The rules of docs/proof.md require the same places and times.
+  // The rules of docs/proof.md require the same places and times on both sides.
   for (const none of ["0 bar 4 1 1 | 1 bar 5 1 1", "0 bar 4 1 2 | 1 bar 4 1 2", "0 bar 4 1 1 | 1 bar 4 2 2",
     "0 move 1 2 3 3 | 1 move 1 2 3 3", "0 norest 3 7 | 0 rest 3 8", "0 stop 0 0 | 0 nostop 1 0"])
     assert.equal(why(`split ${none}`), "", none);
@@ -125,14 +125,14 @@ test("steps can be selected, folded and unfolded", () => {
   app.unfoldAll(false);
   assert.equal(app.rows.length, 1);
   app.select(kWhole.theorem.steps[5]);
-  assert.equal(app.rows.length, 7); // all above it is unfolded
+  assert.equal(app.rows.length, 7); // all nodes above it are unfolded
   assert.deepEqual([app.agents, app.chosen], [[1], 1]);
   assert.equal(constraintsShown(app).length, 1);
   app.choose(2);
   assert.equal(app.chosen, 2);
-  app.unfold(kWhole.theorem.steps[1], false); // elsewhere
+  app.unfold(kWhole.theorem.steps[1], false); // elsewhere in the tree
   assert.equal(app.step, kWhole.theorem.steps[5]);
-  app.unfold(kWhole.theorem.steps[2], false); // above what is chosen
+  app.unfold(kWhole.theorem.steps[2], false); // above the selected step
   assert.equal(app.step, kWhole.theorem.steps[2]);
   app.show(kWhole.lemmas[0]);
   assert.deepEqual([app.rows.length, app.chosen], [3, 0]);

@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests grove view --proof in a browser: certificates of grove solve, deep ones, and hostile names.
+"""Tests `grove view --proof` in a browser, with certificates of grove solve, deep certificates, and hostile names.
 
     proof_page_test.py GROVE
-
 """
 import json
 import re
@@ -25,14 +24,15 @@ class ProofPages(pages.PageTest):
         return self.folder / f"{certificate.name}.html"
 
     def solved_page(self, name):
-        """Opens the page of a solved instance with its plan and certificate, as README shows. Returns the cost."""
+        """Solves an instance, opens the page with its plan and certificate as the README shows, and returns the
+        cost."""
         instance = pages.DATA / f"{name}.cts.json"
         self.run_grove("solve", instance, "--omega", 0, "--threads", 1, "--quiet", "--proof", "c.proof", "-o", "p.json")
         self.browser.open(self.proof_page(instance, self.folder / "c.proof", "p.json"))
         return json.loads((self.folder / "p.json").read_text())["cost"]
 
     def written(self, instance, text):
-        """Writes an uncompressed certificate of the instance: the head and these lines. Returns its path."""
+        """Writes an uncompressed certificate of the instance, with its head and these lines, and returns its path."""
         refused = self.folder / "none.proof"
         refused.write_text("grove-proof 1\ninstance 0\n")
         done = subprocess.run([self.grove, "view", instance, "--proof", refused], capture_output=True, text=True)
@@ -67,7 +67,7 @@ class ProofPages(pages.PageTest):
         self.assert_silent()
 
     def every_split(self):
-        """Returns the details of each split, also of lemmas."""
+        """Returns the details of each split, including splits in proofs of lemmas."""
         return self.evaluate("""[...grove.app.certificate.lemmas, grove.app.certificate.theorem].flatMap((statement) =>
           (grove.app.show(statement), statement.steps).filter((step) => step.children.length > 0).map((step) =>
             (grove.app.select(step), document.querySelector(".details").textContent)))""")
@@ -82,7 +82,8 @@ class ProofPages(pages.PageTest):
                 self.assertEqual(tuple(colour), CHOSEN)
 
     def colours_of_places(self):
-        """Returns the colours at the left edges of the marked places of the constraints of the step."""
+        """Returns the colours at the left edges of the places that are marked for the constraints of the current
+        step."""
         return self.evaluate("""(() => {
           const {camera, element} = grove.stages[0];
           const canvas = element.querySelector("canvas");

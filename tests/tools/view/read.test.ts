@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Wrong data are refused with their position; ids are always text.
+// Tests that invalid data are refused with their position, and that ids are always text.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { readModel } from "../../../tools/view/page/read";

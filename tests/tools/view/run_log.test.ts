@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The log of a run, and the layout of its tree.
+// Tests the log of a run and the layout of its tree.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -166,7 +166,8 @@ test("verdict reports the quality of the plan", () => {
   assert.match(verdict(read(header(), row({ lower_bound: 30 }))), /No plan yet; none costs less than 30/);
 });
 
-// Named by the constraint of the second child: src/conflicts/target.cpp, src/search/wdg_heuristic.cpp.
+// A split is named by the constraint of its second child: src/conflicts/target.cpp,
+// src/search/wdg_heuristic.cpp.
 test("splits have the texts of their techniques", () => {
   assert.match(kSplits["target"], /rests early and no other robot passes/);
   assert.match(kSplits["cost"], /two robots together cost more/);

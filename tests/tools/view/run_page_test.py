@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests grove view --run in a browser: logs of real runs, and large, hostile and growing logs.
+"""Tests `grove view --run` in a browser, with logs of real runs and with large, hostile and growing logs.
 
     run_page_test.py GROVE [--pictures DIR]
-
 """
 
 import argparse
@@ -64,7 +63,7 @@ class Pages(unittest.TestCase):
         return seconds
 
     def quiet(self):
-        """Asserts that the page has logged nothing, sent no request and run no foreign script."""
+        """Asserts that the page has logged nothing, sent no request and run no injected script."""
         self.browser.settle()
         self.assertEqual(self.browser.console, [])
         self.assertEqual(self.browser.requests, [])
@@ -98,7 +97,7 @@ class Pages(unittest.TestCase):
         self.assertIn("Node 0, root of tree 0", self.text(".node"))
         self.browser.key("ArrowDown")
         self.assertNotIn("Node 0,", self.text(".node"))
-        self.browser.key("p")  # one expansion back
+        self.browser.key("p")  # back by one expansion
         before = self.text(".tree .controls")
         self.browser.key("p")
         self.assertNotEqual(self.text(".tree .controls"), before)
@@ -160,7 +159,7 @@ class Pages(unittest.TestCase):
         with log.open("a") as more:
             more.write(half[:20])
             more.flush()
-            before = len(self.browser.requests)  # the second request shows that the first answer was processed
+            before = len(self.browser.requests)  # the second request proves that the first answer was processed
             self.browser.wait_until("more requests", lambda: len(self.browser.requests) >= before + 2)
             more.write(half[20:] + "\n")
         self.wait_for_text("A plan of 44 steps")

@@ -7,7 +7,7 @@ const kColumns = 100;
 const kPlaces = 10_000;
 const steps = stepsOnGrid(kColumns);
 
-// Reproducible: a linear congruential generator.
+// Returns a reproducible random generator (a linear congruential one).
 function dice(seed: number): (bound: number) => number {
   let state = seed >>> 0;
   return (bound) => {
@@ -16,7 +16,7 @@ function dice(seed: number): (bound: number) => number {
   };
 }
 
-// A text and the places that it describes, step by step.
+// Returns a random path as text, and the places that it describes at each step.
 function randomPath(seed: number): { text: string; places: number[] } {
   const roll = dice(seed);
   const places = [5050];
@@ -75,7 +75,7 @@ test("wrong paths are refused", () => {
 });
 
 test("turns have angle and direction at each time", () => {
-  const turns = readTurns("@0;r.2r3.2l", 3); // to E with a pause at 1, then back within the next turn
+  const turns = readTurns("@0;r.2r3.2l", 3); // to E with a pause at 1, then part of a turn and back
   const angles = [0, 1, 1, 2, 3, 3, 3, 3, 2, 1];
   const directions = [0, 1, 1, 1, 0, 0, 0, 0, -1, -1];
   angles.forEach((steps_, time) =>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reads file names of pages of grove view from standard input, one per line. Writes one line of JSON for
-// each: the violations that the page finds in its first plan, or why the plan cannot be shown.
+// Reads file names of grove view pages from standard input, one per line. For each page it writes
+// one line of JSON: the violations that the page finds in its first plan, or the reason why it
+// cannot show the plan.
 
 import { readFileSync } from "node:fs";
 import { createInterface } from "node:readline";

@@ -26,7 +26,7 @@ std::string data(const std::string& name) {
 
 class ViewCommand : public ::testing::Test {
  protected:
-  // Solves a shipped instance and returns the plan file.
+  // Solves a shipped instance and returns the path of the plan file.
   std::string plan_of(const std::string& name) {
     const std::string file = directory_ / (name + ".plan.json");
     const ProcessResult solved =
@@ -112,7 +112,7 @@ TEST_F(ViewCommand, WritesPictures) {
        directory_ / "s.png", "--gif", directory_ / "s.gif", "--at", "0,8,20.5", "--width", "300"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(read("s.svg"), HasSubstr("<svg"));
-  EXPECT_THAT(read("s.svg"), HasSubstr("width=\"924px\""));  // three times and two gaps
+  EXPECT_THAT(read("s.svg"), HasSubstr("width=\"924px\""));  // three times, two gaps
   EXPECT_THAT(read("s.png"), StartsWith("\x89PNG"));
   EXPECT_THAT(read("s.gif"), StartsWith("GIF89a"));
   EXPECT_EQ(read("s.gif").back(), ';');
@@ -307,7 +307,7 @@ TEST_F(ViewCommand, RefusesCertificatesOfOtherInstances) {
   directory_.write("bad.plan.json", R"({"status": "bounded", "cost": 0, "agents": []})");
   EXPECT_THAT(complaint_of({"view", instance, directory_ / "bad.plan.json", "--proof", proof}),
               HasSubstr("bad.plan.json"));
-  // A plan in which one robot follows another.
+  // In this plan one robot follows another.
   EXPECT_THAT(complaint_of({"view", instance, plan, "--proof", proof}),
               HasSubstr("expected a plan valid without following, as the certificate requires"));
 }

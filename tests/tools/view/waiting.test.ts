@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Causes of waits: the robots that would have been met.
+// Tests the causes of waits: the robots that a waiting robot would otherwise have met.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { App } from "../../../tools/view/page/app";
@@ -13,7 +13,7 @@ function shown(agents: AgentData[], plan: object[]): App {
   return app;
 }
 
-// "a 0-3 for b, c"
+// Returns the waits as texts such as "a 0-3 for b, c".
 function waits(app: App): string[] {
   const name = (agent: number) => app.model.agents[agent].id;
   return app.viewed[0].waits.all.map((wait) =>
@@ -29,7 +29,7 @@ test("a robot waits for one on its next place", () => {
 });
 
 test("a robot waits for one that passes later", () => {
-  // a would be on 2 at 2, where b passes from 6 to 2 in the same step.
+  // Without waiting, a would be on 2 at time 2, when b passes from 6 to 2.
   assert.deepEqual(waits(shown([kA, { id: "b", start: 10 }], [{ path: "@0;.3E" }, { path: "@10;2NE" }])),
     ["a 0-1 for b"]);
 });
@@ -47,7 +47,7 @@ test("waits may have no cause", () => {
 });
 
 test("several causes are listed in order of time", () => {
-  // b, then c pass 2; a enters behind them.
+  // First b and then c pass cell 2; a enters after them.
   const app = shown([{ id: "a", start: 1 }, { id: "b", start: 3 }, { id: "c", start: 7 }],
     [{ path: "@1;2.E" }, { path: "@3;W2S" }, { path: "@7;NWS" }]);
   const [wait] = app.viewed[0].waits.byAgent[0];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Positions and names of places, and possible steps.
+// Tests positions and names of places, and possible steps.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { parse } from "../../../tools/view/page/json";
@@ -11,7 +11,7 @@ const world = (data: object): World => readWorld(parse(JSON.stringify(data)));
 const roads = (vertices: [string, number, number][], list: number[][]) =>
   world({ kind: "roadmap", vertices, roads: list });
 
-// All moves from each place.
+// Returns all moves from each place.
 function moves(w: World): string[] {
   const all: string[] = [];
   for (let from = 0; from < w.places; ++from)

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Shared code of the programs that drive robots along a passing order."""
+"""Code shared by the programs that drive robots along a passing order (grove toio, grove vda5050)."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Command-line parsing with help and error messages in the format of grove."""
+"""Parses command lines, with help and error messages in the format of grove."""
 import argparse
 
 from .bad_input import BadInput
@@ -45,7 +45,7 @@ def positive(text):
 
 
 def integers(text, parts, least, most, expected):
-    """Returns the parts as integers. Raises ArgumentTypeError for the whole text if a part is not one."""
+    """Returns the parts as integers. Raises ArgumentTypeError for `text` unless all are integers in [least, most]."""
     if not all(p.isascii() and p.isdigit() and least <= int(p) <= most for p in parts):
         raise wrong(text, expected)
     return [int(p) for p in parts]
@@ -60,7 +60,7 @@ def seed(text):
 
 
 def robot_at_for(text, endless=True):
-    """Parses ROBOT@SECONDS=SECONDS; returns (robot, begin, duration). With `endless` the duration may be 'never'."""
+    """Parses ROBOT@SECONDS=SECONDS and returns (robot, begin, duration). With `endless` the duration can be 'never'."""
     expected = "ROBOT@SECONDS=SECONDS" + (", or ROBOT@SECONDS=never" if endless else "")
     robot, mark, when = text.rpartition("@")
     begin, equals, seconds = when.partition("=")

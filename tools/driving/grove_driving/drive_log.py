@@ -18,7 +18,7 @@ def open_log(path):
 class ExecutionLog:
     def __init__(self, stream, order_file, robots, seconds_per_step):
         self.stream = stream
-        self.last = {}          # robot: (time, sample) of its last line
+        self.last = {}          # {robot: (time, sample) of its last line}
         self._line({"format": FORMAT, "order": order_file, "robots": robots, "seconds_per_step": seconds_per_step})
 
     def _line(self, holder):
@@ -28,7 +28,7 @@ class ExecutionLog:
     def write(self, seconds, robot, at, angle, action, state):
         """Writes a line if the action or state changed, or if LEAST_SECONDS have passed and the sample changed.
 
-        at: in cells, y down, or metres of a roadmap; angle: degrees from north, clockwise, or None.
+        at: (x, y) in cells with y down, or in metres on a roadmap. angle: degrees clockwise from north, or None.
         """
         sample = {"at": [round(at[0], 3), round(at[1], 3)]}
         if angle is not None:

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Transformation from metres to cells, derived from a passing order."""
+"""Transforms metres to cells; the transformation is derived from a passing order."""
 from .order import is_cell
 
 
 class Frame:
     def __init__(self, order):
-        """Derives the transformation from the first robot and move. For a roadmap it is the identity."""
+        """Derives the transformation from the first robot and the first move. On a roadmap it is the identity."""
         robot = order.robots[0]
         self.cell, self.x, self.y = 1.0, 0.0, 0.0
         self.is_grid = is_cell(robot.start)
@@ -25,5 +25,5 @@ class Frame:
                 at = action.at
 
     def cells(self, at):
-        """Returns (x, y) in cells, y down, for a point in metres, y up."""
+        """Converts a point in metres with y up to (x, y) in cells with y down; on a roadmap, returns it unchanged."""
         return ((at[0] - self.x) / self.cell, (self.y - at[1]) / self.cell) if self.is_grid else at

@@ -13,13 +13,13 @@ KINDS = ("move", "turn", "work")
 class Action(NamedTuple):
     kind: str
     place: tuple            # place after the action: cell (x, y); on roadmaps ("A",) or ("A", "B", k)
-    heading: str            # "N", ... or None
-    at: tuple               # centre of that place, (x, y) in metres, y up; None if not in the file
-    steps: int
-    after: tuple            # (robot, action) that must be done before, or None
-    ring: int               # or None
+    heading: str            # heading after the action ("N", "E", "S", "W") or None
+    at: tuple               # centre of that place, (x, y) in metres with y up; None if not in the file
+    steps: int              # planned duration, time steps
+    after: tuple            # (robot, action) that must be done before this action starts, or None
+    ring: int               # ring of which the action is a part, or None
     task: str               # task of a "work" action, or None
-    visits: tuple           # tasks without duration that the robot first visits with this action
+    visits: tuple           # tasks without duration that the robot first visits by this action
 
 
 class Robot(NamedTuple):
@@ -27,7 +27,7 @@ class Robot(NamedTuple):
     start: tuple
     heading: str
     at: tuple
-    visits: tuple           # tasks without duration at its start
+    visits: tuple           # tasks without duration on its start
     actions: tuple
 
     def place_before(self, action):
@@ -36,7 +36,7 @@ class Robot(NamedTuple):
 
 class Order(NamedTuple):
     robots: tuple
-    rings: dict             # ring: [(robot, action)] by index; each enters the place that the next one leaves
+    rings: dict             # {ring: [(robot, action) as indices]}; each enters the place that the next one leaves
 
     def robot(self, name):
         return next(r for r in self.robots if r.name == name)
@@ -73,7 +73,7 @@ class _Reader:
         return value
 
     def place(self, where, holder, key):
-        """Reads a place; returns (place, heading)."""
+        """Reads a place and returns (place, heading)."""
         expected = '[x, y], [x, y, "N"], ["A"] or ["A", "B", k]'
         value = self.key(where, holder, key, list, expected)
         vertices = [v for v in value[:2] if isinstance(v, str)]
@@ -109,7 +109,7 @@ class _Reader:
                 self.natural(f"{place}/after", value, "action"))
 
     def next_place(self, where, holder, kind, before):
-        """Reads (place, heading) after a move or turn."""
+        """Reads the place and heading after a move or turn and returns (place, heading)."""
         place, heading = self.place(where, holder, "to")
         if kind == "turn" and heading is None:
             self.fail(f"{where}/to", holder["to"], '[x, y, "N"]')
@@ -174,7 +174,8 @@ def _check_after(reader, robots):
 
 
 def _follow_each_other(robots, members):
-    """Returns the members of a ring, each before the one whose cell it enters. Returns None if they form no ring."""
+    """Returns the members of a ring so that each enters the place that the next one leaves. Returns None if they form
+    no ring."""
     leaves = {robots[i].place_before(k): (i, k) for i, k in members}
     chain = [members[0]]
     while len(chain) <= len(members):
@@ -205,7 +206,7 @@ def _rings(reader, robots):
 
 
 def _completable(order):
-    """Returns {robot: number of actions that can be done}, at the point where no further action can begin."""
+    """Returns {robot: number of actions that the order lets it complete} when no further action can start."""
     done = {r.name: 0 for r in order.robots}
 
     def may(robot, k):

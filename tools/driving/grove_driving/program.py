@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Exit codes and error messages in the format of grove."""
+"""Runs programs with exit codes and error messages in the format of grove."""
 import asyncio
 import os
 import signal
@@ -16,7 +16,7 @@ def complain(message):
 
 
 def exit_code(run, arguments):
-    """Returns the exit code of run(arguments), whether it returns or raises."""
+    """Calls run(arguments) and returns the exit code, also if it raises an exception."""
     try:
         return run(arguments)
     except BadInput as error:
@@ -27,7 +27,7 @@ def exit_code(run, arguments):
     except asyncio.CancelledError:
         return 128 + signal.SIGTERM
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush when Python exits
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # so that Python's flush at exit does not fail
         return FAILURE
     except OSError as error:
         complain(f"{error.filename or 'the drive'}: {error.strerror or error}")

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-//! Model of one agent for the searches: its poses, its stops, and its least remaining costs under no constraints except those on the
-//! order of stops.
+//! Model of one agent for the searches: its poses, its stops, and its least remaining costs. These costs respect constraints on the order
+//! of stops and ignore all other constraints.
 use crate::instance::{Agent, Instance, Place, World};
 use crate::orders::{After, Bound, Orders};
 use crate::tokens::Map;
 use std::rc::Rc;
 
-/// The time `inf`, later than every time that a certificate may name.
+/// The time `inf`. It is later than every time that a certificate can name.
 pub const NEVER: u32 = 1 << 30;
 
-/// A list of numbers for each number from 0 to `count` - 1, in compressed rows.
+/// Lists of numbers, one for each number from 0 to `count` - 1, in compressed rows.
 struct Lists {
     first: Vec<u32>,
     items: Vec<u32>,
@@ -31,7 +31,8 @@ impl Lists {
     fn at(&self, i: u32) -> &[u32] { &self.items[self.first[i as usize] as usize..self.first[i as usize + 1] as usize] }
 }
 
-/// Poses of all agents with the same `turn` (steps of a quarter turn; 0: these agents do not turn), and the steps between poses.
+/// The poses of all agents with the same `turn` (duration of a quarter turn in time steps; 0: the agents do not turn), and the steps
+/// between poses.
 pub struct Poses {
     turn: u32,
     each: u32,
@@ -82,7 +83,8 @@ impl Poses {
 
     fn on(&self, place: Place) -> std::ops::Range<u32> { place * self.each..(place + 1) * self.each }
 
-    /// Returns for each pose the least cost of going to a source plus the cost of that source. A source is (cost, pose).
+    /// Returns, for each pose, the minimum over all sources of the cost of going to the source plus the cost of the source. A source is
+    /// (cost, pose).
     fn spread(&self, mut sources: Vec<(u32, u32)>) -> Vec<u32> {
         sources.sort_unstable_by(|one, two| two.cmp(one));
         let mut found = vec![NEVER; self.place.len()];
@@ -109,13 +111,15 @@ pub struct Stop {
     pub duration: u32,
 }
 
-/// A set of stops done. `rest`: for each post that may be next, the remaining cost from the arrival at it, and the post; the least first.
+/// A set of stops done. `rest` has, for each post that may be next, the remaining cost from the arrival at the post, and the post, in
+/// ascending order of cost.
 struct Done {
     stops: u64,
     rest: Vec<(u32, u32)>,
 }
 
-/// One restriction of which stops may have which number, with the remaining costs for paths that cost at most `limit`.
+/// A restriction of the order of stops (`allowed[k]`: the stops that may have number k), with the remaining costs of paths that cost at
+/// most `limit`.
 struct Choice {
     allowed: Vec<u64>,
     after: After,
@@ -125,31 +129,33 @@ struct Choice {
     done: Vec<Done>,
 }
 
-/// With at most this number of stops all sets of stops are considered at once.
+/// With at most this number of stops, the first computation of remaining costs covers all paths.
 const MAX_STOPS_AT_ONCE: usize = 5;
-/// With at most this number of stops all sets are considered when the first limit does not suffice.
+/// With at most this number of stops, the computation covers all paths if the first limit does not suffice.
 const MAX_STOPS_COMPLETE: usize = 11;
-/// With more stops only orders are considered that cost at most this many steps more than the best one.
+/// With more stops, the limit is raised only for costs less than this number of steps above the cost of the best order.
 const MAX_EXCESS: u32 = 200;
 
 pub struct AgentModel {
     pub poses: Rc<Poses>,
     pub start: u32,
-    /// The stop that the agent works on at time 0, and the time at which this work ends.
+    /// The stop whose task the agent executes at time 0, and the time at which this execution ends.
     pub working: Option<(u32, u32)>,
     pub stops: Vec<Stop>,
-    /// For each place the set of stops there. Empty if the agent has no tasks.
+    /// For each place, the set of stops there as bits. Empty if the agent has no tasks.
     stops_at: Vec<u64>,
-    /// The agent rests on the place of its last stop: it has no goal, and no stop takes time.
+    /// True if the agent must rest on the place of its last stop, because it has no goal and no stop takes time.
     pub rests_on_last: bool,
+    /// The goal, if the agent need not turn there or execute a task there.
     pub plain_goal: Option<Place>,
+    /// For each pose, the least cost of going to a pose in which the agent may end.
     ends: Vec<u32>,
-    /// Posts: a stop with a pose in which it may be done.
+    /// Posts. A post is a stop and a pose in which it may be done.
     posts: Vec<(usize, u32)>,
-    /// From each pose to each post, row by row.
+    /// Distance from each pose to each post, one row per pose.
     distances: Vec<u32>,
     bound: Option<Bound>,
-    /// Restrictions considered so far, and the number of the current one.
+    /// Restrictions with known remaining costs, and the number of the current one.
     choices: Vec<Choice>,
     now: usize,
 }
@@ -208,7 +214,7 @@ impl AgentModel {
         (0..self.stops.len()).filter(|&j| stops >> j & 1 == 1 && self.stops[j].duration == 0).fold(0, |all, j| all | 1 << j)
     }
 
-    /// Sets the current restriction: `allowed[k]` is the set of stops that may have number k.
+    /// Sets the current restriction of the order of stops. `allowed[k]` is the set of stops that may have number k.
     pub fn choose(&mut self, allowed: &[u64]) {
         match self.choices.iter().position(|choice| choice.allowed == allowed) {
             Some(known) => self.now = known,
@@ -216,7 +222,8 @@ impl AgentModel {
         }
     }
 
-    /// Computes the remaining costs under a restriction, at least for paths that cost up to `wanted`, and makes it the current one.
+    /// Computes the remaining costs under a restriction, at least for all paths that cost up to `wanted`. Makes the restriction the
+    /// current one.
     fn add_choice(&mut self, allowed: Vec<u64>, wanted: u32) {
         let size = |choice: &Choice| 10_000 + choice.after.len() + 5 * choice.done.len();
         if self.choices.iter().map(size).sum::<usize>() > 4_000_000 { self.choices.clear(); }
@@ -236,10 +243,10 @@ impl AgentModel {
         self.choices.push(Choice { allowed, after, limit, least, numbers: Map::default(), done: Vec::new() });
     }
 
-    /// Searches may miss paths that cost more.
+    /// Returns the limit of the current restriction. The remaining costs are too high for paths that cost more, so searches may miss them.
     pub fn limit(&self) -> u32 { self.choices[self.now].limit }
 
-    /// Raises the limit to `cost` or more, if that is affordable. Returns whether the limit suffices for `cost` now.
+    /// Raises the limit to `cost` or more if the computation is affordable. Returns whether the limit is now at least `cost`.
     pub fn raise_limit(&mut self, cost: u32) -> bool {
         let few = self.stops.len() <= MAX_STOPS_COMPLETE;
         if self.limit() < cost && (few || cost < self.choices[self.now].least + MAX_EXCESS) {
@@ -249,7 +256,7 @@ impl AgentModel {
         self.limit() >= cost
     }
 
-    /// Returns the number of a set of stops done.
+    /// Returns the number of a set of stops done, under the current restriction. Adds the set if it is new.
     pub fn number(&mut self, stops: u64) -> u32 {
         let Choice { after, numbers, done, .. } = &mut self.choices[self.now];
         if let Some(&found) = numbers.get(&stops) { return found; }
@@ -266,8 +273,8 @@ impl AgentModel {
 
     pub fn done(&self, number: u32) -> u64 { self.choices[self.now].done[number as usize].stops }
 
-    /// Returns the least remaining cost from a pose with these stops done. If all paths through this state cost more than the limit,
-    /// the result may be too high or NEVER.
+    /// Returns the least remaining cost from a pose with the stops done that set `number` has. If all paths through this state cost more
+    /// than the limit, the result can be too high or NEVER.
     pub fn remains(&self, number: u32, pose: u32) -> u32 {
         let Done { stops, rest } = &self.choices[self.now].done[number as usize];
         if *stops == self.all() { return self.ends[pose as usize]; }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-//! Covering problem of a leaf (docs/proof.md, section 4): a whole number for each agent, so that for each lemma the numbers of its agents
-//! sum up to at least the bound of the lemma. The sum of all numbers is minimised.
+//! Covering problem of a leaf (docs/proof.md, section 4): choose a whole number >= 0 for each agent and minimise the sum of all numbers,
+//! so that for each row the numbers of its agents sum up to at least its bound.
 
-/// Agents, and a lower bound on the sum of their numbers.
+/// A row: agents, and a lower bound on the sum of their numbers.
 pub type Row = (Vec<u32>, u64);
 
-/// Node limit of a search. If it is exceeded, the bound of packing() is used.
+/// Maximum number of nodes of a search. If a search exceeds it, least() uses the bound of packing() instead.
 const MAX_NODES: u32 = 200_000;
 
-/// Returns a lower bound on the sum of all numbers. It is the minimum, unless a search exceeds MAX_NODES.
+/// Returns a lower bound on the minimum sum of all numbers. The bound equals the minimum unless a search exceeds MAX_NODES. Solves each
+/// connected component of the rows separately.
 pub fn least(mut rows: Vec<Row>) -> u64 {
     rows.retain(|row| row.1 > 0);
     rows.sort_unstable_by(|one, two| two.1.cmp(&one.1));
@@ -29,7 +30,7 @@ pub fn least(mut rows: Vec<Row>) -> u64 {
     sum
 }
 
-/// Returns the sum of the bounds of rows without common agents, chosen greedily.
+/// Returns the sum of the bounds of greedily chosen rows that have no agents in common. This is a lower bound on the minimum.
 fn packing(rows: &[Row]) -> u64 {
     let mut taken: Vec<&Row> = Vec::new();
     for row in rows {
@@ -38,6 +39,7 @@ fn packing(rows: &[Row]) -> u64 {
     taken.iter().map(|row| row.1).sum()
 }
 
+/// Branch and bound.
 struct Search {
     best: u64,
     nodes: u32,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-//! Instances with their maps and roadmaps (docs/formats.md), places and links, and the checksum (docs/proof.md, sections 1 and 6).
+//! Reads instances with their maps and roadmaps (docs/formats.md). Derives places and links (docs/proof.md, section 1) and the checksum
+//! (section 6).
 use crate::json::Json;
 use crate::keys;
 use std::collections::{HashMap, HashSet};
@@ -20,10 +21,10 @@ pub struct Agent {
     pub start: Place,
     pub goal: Option<Place>,
     pub turn: u32,
-    /// Heading at the start, the heading that the agent turns to, and the steps of this turn that are done. 0 to 3: N, E, S, W.
+    /// Heading at the start, heading to which the agent is turning, and completed steps of this turn. Headings are 0 to 3: N, E, S, W.
     pub looks: (u32, u32, u32),
     pub goal_heading: Option<u32>,
-    /// The task that the agent works on at the start, and the steps of it that are done.
+    /// The task that the agent executes at the start, and the completed steps of this execution.
     pub working: Option<(u32, u32)>,
     pub tasks: Vec<u32>,
 }
@@ -75,7 +76,7 @@ impl World {
         add(&mut self.neighbours[to as usize], from);
     }
 
-    /// Returns the next cell in a direction. Returns None at the edge of the map, or if that cell is blocked.
+    /// Returns the next cell in the direction `heading`. Returns None at the edge of the map, and if that cell is blocked.
     pub fn ahead(&self, cell: Place, heading: u32) -> Option<Place> {
         let (width, height) = self.size;
         let next = match heading {
@@ -122,7 +123,7 @@ impl Road {
     }
 }
 
-/// Returns the number of each id in a list.
+/// Returns, for each id, the position of its object in the list `key`. Refuses missing and repeated ids.
 fn ids(json: &Json, key: &str) -> Result<HashMap<String, u32>, String> {
     let mut ids = HashMap::new();
     for (number, value) in require(json.get(key).and_then(Json::list), key, "a list")?.iter().enumerate() {
@@ -179,7 +180,8 @@ impl Names {
         self.vertices.get(id.text()?).copied()
     }
 
-    /// Parses a vertex, or a place within a road: ["A", "B", steps], with the road's number as fourth element if several roads join A and B.
+    /// Parses a vertex, or a place within a road: ["A", "B", steps], with the number of the road as fourth element if several roads join
+    /// A and B.
     fn place(&self, value: &Json) -> Option<Place> {
         let (parts, number) = match value.list() {
             Some(parts @ [_, _, _]) => (parts, None),
@@ -201,7 +203,7 @@ impl Names {
         require(Some(place).filter(|_| looks.is_none()), at, "a cell without a heading")
     }
 
-    /// Parses a place, and headings if it has any.
+    /// Parses a place, and the headings (see Agent::looks) if the value has any.
     fn find(&self, world: &World, value: Option<&Json>, at: &str) -> Result<(Place, Option<(u32, u32, u32)>), String> {
         let (width, height) = world.size;
         if width == 0 { return Ok((require(value.and_then(|value| self.place(value)), at, "a vertex, or a place on a road")?, None)); }
@@ -263,7 +265,7 @@ fn scenario(text: &str, count: u32) -> Result<Json, String> {
     Ok(object(map.into_iter().chain([("agents", Json::List(agents)), ("tasks", Json::List(Vec::new()))]).collect()))
 }
 
-/// Returns the file `name` with all symbolic links resolved, if it is in the folder of `path` or below.
+/// Returns the path of the file `name` with all symbolic links resolved. Refuses a file that is not in the folder of `path` or below.
 fn confined(path: &Path, name: &str) -> Result<PathBuf, String> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let inside = |folder: PathBuf| folder.join(name).canonicalize().ok().filter(|real| !Path::new(name).is_absolute() && real.starts_with(&folder) && real.is_file());
@@ -271,8 +273,8 @@ fn confined(path: &Path, name: &str) -> Result<PathBuf, String> {
 }
 
 impl Instance {
-    /// Reads an instance. With `agents`, the file is a scenario and its first `agents` rows are the agents. `map` replaces the map that
-    /// the file names.
+    /// Reads an instance. If `agents` is given, the file is a scenario, and its first `agents` rows are the agents. `map` replaces the map
+    /// that the file names. `confine`: refuse a map or roadmap outside the folder of the instance.
     pub fn read(path: &Path, agents: Option<u32>, map: Option<&Path>, confine: bool) -> Result<Instance, String> {
         let read = |path: &Path| {
             let bytes = std::fs::read(path).map_err(|error| format!("{}: {}", path.display(), error))?;

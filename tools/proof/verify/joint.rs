@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: MIT
-//! Joint search. For each agent, layers hold the states that it may be in at each time. The search goes through sets of states, one for
-//! each agent, from one time to the next.
+//! Joint search over all agents. For each agent, layers hold its possible states at each time. The search expands joint states (one state
+//! per agent) from each time to the next.
 use crate::agent::NEVER;
 use crate::instance::Place;
 use crate::successors::{State, Successors};
 use crate::tokens::{Map, Set};
 
-/// A state of an agent at a time: its place, the points of the next time that may follow, and whether a path may end here.
+/// A possible state of an agent at a time.
 struct Point {
     place: Place,
+    /// Numbers of the points at the next time that may follow.
     next: Vec<u32>,
+    /// Whether a path may end here.
     ends: bool,
     /// The least cost of a path through this point; 0 if costs have no cap.
     least: u32,
 }
 
-/// The points of one agent at each time. If costs have no cap, the last layer stands for all times from `horizon` on.
+/// The points of one agent at each time. If the agent's cost has no cap, the last layer represents all times from `horizon` on.
 pub struct Layers(Vec<Vec<Point>>);
 
 impl Layers {
@@ -68,27 +70,28 @@ impl Layers {
     }
 }
 
-/// In a set of points: RESTS + place stands for an agent that rests on this place for ever.
+/// In the key of a joint state, RESTS + place represents an agent that rests on this place for ever.
 const RESTS: u32 = 1 << 31;
 
 pub struct Joint {
     pub layers: Vec<Layers>,
-    /// Only plans with a sum of costs below this limit are searched for. None: costs do not matter.
+    /// The search is for plans whose sum of costs is below this limit. None: for any plan.
     pub limit: Option<u64>,
     pub horizon: u32,
     pub following: bool,
 }
 
-/// A set of points at a time, one for each agent.
+/// A joint state at a time.
 struct Node<'a> {
+    /// For each agent the number of its point, or RESTS + place.
     key: &'a [u32],
     time: u32,
-    /// For each agent: a lower bound on the costs of this agent and those after it, without agents at rest.
+    /// For each agent, a lower bound on the sum of costs of this agent and all later ones, without agents at rest.
     least: Vec<u64>,
 }
 
 impl Joint {
-    /// Whether there is no plan.
+    /// Returns whether there is no plan below the limit.
     pub fn finds_none(&self) -> bool {
         let mut nodes: Map<Vec<u32>, u64> = Map::from_iter([(Vec::new(), 0)]);
         for layers in &self.layers {
@@ -118,9 +121,9 @@ impl Joint {
 
     fn point(&self, agent: usize, time: u32, number: u32) -> &Point { &self.layers[agent].0[time as usize][number as usize] }
 
-    /// Extends `chosen` (point, place before, place after; one for each agent so far) by each option of the next agent, and adds complete
-    /// sets to `later`. `costs`: costs of the agents at rest, and a lower bound on those of the others. Returns true if there is a plan:
-    /// all agents rest.
+    /// Extends `chosen`, which has (point, place before, place after) for the first agents, by each option of the next agent. Adds complete
+    /// joint states to `later`. `costs`: costs of the chosen agents that have come to rest, and a lower bound on the costs of the other
+    /// chosen agents. Returns true if it has found a plan, that is, all agents rest.
     fn extend(
         &self, node: &Node, chosen: &mut Vec<(u32, Place, Place)>, costs: (u64, u64), later: &mut Map<Vec<u32>, u64>,
     ) -> bool {

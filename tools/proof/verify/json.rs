@@ -3,7 +3,7 @@
 pub enum Json {
     Other,
     Bool(bool),
-    /// Written as a whole number: without point and exponent.
+    /// A number without decimal point and exponent.
     Whole(i64),
     Real(f64),
     Text(String),
@@ -11,7 +11,7 @@ pub enum Json {
     Object(Vec<(String, Json)>),
 }
 
-/// Maximum nesting of objects and lists.
+/// Maximum nesting depth of objects and lists.
 const MAX_DEPTH: usize = 32;
 
 impl Json {
@@ -31,10 +31,10 @@ impl Json {
 
     pub fn list(&self) -> Option<&[Json]> { match self { Json::List(values) => Some(values), _ => None } }
 
-    /// A text without NUL.
+    /// Returns the value of a text without NUL characters; otherwise None.
     pub fn text(&self) -> Option<&str> { match self { Json::Text(text) if !text.contains('\0') => Some(text), _ => None } }
 
-    /// A whole number from 0 to 2^31 - 1.
+    /// Returns the value of a whole number from 0 to 2^31 - 1; otherwise None.
     pub fn number(&self) -> Option<u32> {
         match self { Json::Whole(n) if (0..1 << 31).contains(n) => Some(*n as u32), _ => None }
     }
@@ -45,7 +45,7 @@ impl Json {
 struct Parser<'a> {
     bytes: &'a [u8],
     at: usize,
-    /// A key that an object has twice.
+    /// A key that occurs twice in an object, if any does.
     twice: Option<String>,
 }
 
@@ -54,7 +54,7 @@ impl Parser<'_> {
 
     fn blanks(&mut self) { while matches!(self.peek(), b' ' | b'\t' | b'\n' | b'\r') { self.at += 1; } }
 
-    /// Skips blanks, and then `word` if it is there. Returns whether it is.
+    /// Skips blanks and, if it follows, `word`. Returns whether `word` followed.
     fn take(&mut self, word: &str) -> bool {
         self.blanks();
         let found = self.bytes.get(self.at..).map_or(false, |rest| rest.starts_with(word.as_bytes()));
@@ -99,7 +99,7 @@ impl Parser<'_> {
         Some(()).filter(|_| self.at > from)
     }
 
-    /// [-] digits [. digits] [e [+-] digits], without leading zeros.
+    /// Parses [-] digits [. digits] [e [+-] digits], without leading zeros.
     fn number(&mut self) -> Option<Json> {
         let from = self.at;
         self.at += usize::from(self.peek() == b'-');
@@ -164,7 +164,7 @@ impl Parser<'_> {
         Some(())
     }
 
-    /// Parses the four digits after `u`, and stops on the last of them.
+    /// Parses the four hexadecimal digits after `u`. Afterwards the current byte is the last of them.
     fn unit(&mut self) -> Option<u16> {
         let digits = std::str::from_utf8(self.bytes.get(self.at + 1..self.at + 5)?).ok()?;
         self.at += 4;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-//! The keys that objects of instances and roadmaps may have (docs/formats.md). A key that is dropped could be a constraint,
-//! and then the bound would be that of another problem.
+//! The keys that objects of instances and roadmaps may have (docs/formats.md). Unknown keys are refused, because an ignored key could
+//! change the problem, and the bound would then be that of a different problem.
 use crate::json::Json;
 
-/// The keys of one kind of object, and for each key the keys of the objects in its value.
+/// The keys of one kind of object and, for each key, the keys of the objects in its value (None: no objects are checked).
 pub struct Keys(&'static [(&'static str, Option<&'static Keys>)]);
 
 static WORKING: Keys = Keys(&[("task", None), ("done", None)]);
@@ -16,7 +16,7 @@ static EDGE: Keys = Keys(&[("from", None), ("to", None), ("steps", None), ("one_
 pub static INSTANCE: Keys = Keys(&[("map", None), ("roadmap", None), ("agents", Some(&AGENT)), ("tasks", Some(&TASK))]);
 pub static ROADMAP: Keys = Keys(&[("vertices", Some(&VERTEX)), ("edges", Some(&EDGE))]);
 
-/// Remarks are for people and other programs. Their contents are not checked.
+/// Whether the key holds a remark for people or other programs, whose content is not checked.
 fn is_remark(key: &str) -> bool { key.starts_with('_') || key == "$schema" }
 
 impl Keys {

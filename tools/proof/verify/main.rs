@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! grove-verify: verifies that a certificate proves its bound. Written from docs/proof.md.
+//! grove-verify: verifies that a certificate proves its bound. Implements docs/proof.md and shares no code with Grove.
 mod agent;
 mod covering;
 mod instance;
@@ -35,13 +35,15 @@ Verifies that a certificate proves its lower bound on the cost of every valid pl
 Exit codes: 0 'verified: ...', the bound is proven; 1 'refused: ...', it is not proven, or not within the limits;
 2 'unreadable: ...', a file is not a certificate or not an instance, or an option is wrong.";
 
-/// The number of the line being read, for refusals outside the verifier.
+/// Number of the line that is being verified, for refusals from outside the verifier (limits, panics).
 static LINE: AtomicU64 = AtomicU64::new(0);
+/// Number of bytes that are currently allocated.
 static USED: AtomicU64 = AtomicU64::new(0);
+/// Memory limit in bytes.
 static LIMIT: AtomicU64 = AtomicU64::new(4_000_000_000);
 static ENDED: AtomicBool = AtomicBool::new(false);
 
-/// Ends the program with a verdict. Only the first call does; later calls wait for it.
+/// Prints a verdict and ends the program. Thread-safe. Only the first call has an effect; later calls wait for the program to end.
 fn end(code: i32, text: &str) -> ! {
     if ENDED.swap(true, Ordering::SeqCst) { std::thread::sleep(Duration::from_secs(60)); }
     use std::io::Write;
@@ -51,7 +53,7 @@ fn end(code: i32, text: &str) -> ! {
 
 fn refuse(reason: &str) -> ! { end(1, &format!("refused: line {}: {}", LINE.load(Ordering::Relaxed), reason)) }
 
-/// Allocator that counts the bytes in use, and refuses when they exceed LIMIT.
+/// Allocator that counts the allocated bytes and refuses the certificate when they exceed LIMIT.
 struct Counting;
 
 unsafe impl GlobalAlloc for Counting {
@@ -147,7 +149,7 @@ fn main() {
         let what = what.downcast_ref::<String>().map(String::as_str).or_else(|| what.downcast_ref::<&str>().copied());
         refuse(&format!("beyond this checker: {}", what.unwrap_or("internal error")))
     }));
-    // A thread with a large stack: the covering and the joint search recurse for each agent.
+    // The thread has a large stack, because the covering search and the joint search recurse once per agent.
     let worker = std::thread::Builder::new().stack_size(1 << 29).spawn(move || verify(&arguments));
     let (code, text) = worker.expect("a thread").join().unwrap_or_else(|_| refuse("internal error"));
     end(code, &text)

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-//! Orders of stops: the least remaining cost for each set of stops done. With many stops, only for orders that cost little more than the
-//! best one.
+//! Orders of stops: the least remaining cost for each set of stops done and last stop. With many stops, computed only for orders that cost
+//! little more than the best one.
 use crate::agent::NEVER;
 use crate::tokens::Map;
 
-/// Steps by which the limit exceeds the cost of the best order, or a lower bound on it.
+/// Time steps by which the first limit exceeds the cost of the best order, or a lower bound on that cost.
 const SLACK: u32 = 2;
 
-/// If the cache holds more trees, it is emptied.
+/// Maximum number of cached trees. A larger cache is emptied.
 const MAX_TREES: usize = 4_000_000;
 
 /// Costs between stops. A stop may be done in several poses; a post is (stop, pose).
@@ -15,23 +15,23 @@ pub struct Orders<'a> {
     pub posts: &'a [(usize, u32)],
     /// Distances from the start to posts.
     pub first: &'a [u32],
-    /// Distances between posts, row by row.
+    /// Distances between posts, row by row: from post i to post j at i * posts.len() + j.
     pub legs: Vec<u32>,
     /// Distances from posts to the end.
     pub last: Vec<u32>,
     pub durations: Vec<u32>,
-    /// The stop that the agent works on at time 0, its post, and the time at which this work ends.
+    /// The stop whose task the agent executes at time 0, its post, and the time at which this execution ends.
     pub working: Option<(usize, u32, u32)>,
     /// `allowed[k]`: the stops that may have number k.
     pub allowed: &'a [u64],
 }
 
-/// The remaining cost for a set of stops done and the post of the last one.
+/// The remaining cost for each set of stops done and the post of the last of them.
 pub type After = Map<(u64, u32), u32>;
 
 impl Orders<'_> {
-    /// Returns the remaining costs for all sets and posts on paths that cost up to a limit; this limit (NEVER: all paths), which is at
-    /// least `wanted`; and the least cost, or 0 if `wanted` is NEVER.
+    /// Returns (1) the remaining costs for all sets and posts on paths that cost up to a limit, (2) this limit, which is at least `wanted`
+    /// (NEVER: all paths), and (3) the least cost of a path, or 0 if `wanted` is NEVER.
     pub fn after(&self, bound: &mut Option<Bound>, wanted: u32) -> (After, u32, u32) {
         if wanted == NEVER { return (self.within(NEVER, None).0, NEVER, 0); }
         let bound = bound.get_or_insert_with(|| Bound::of(self));
@@ -45,7 +45,7 @@ impl Orders<'_> {
         }
     }
 
-    /// Returns the remaining costs, the least cost, and whether the limit excluded any path.
+    /// Returns the remaining costs for paths that cost up to `limit`, the least cost, and whether the limit has excluded any path.
     fn within(&self, limit: u32, mut bound: Option<&mut Bound>) -> (After, u32, bool) {
         let all = (1u64 << self.durations.len()) - 1;
         let (mut layers, mut now, mut dropped) = (Vec::new(), After::default(), false);
@@ -82,7 +82,7 @@ impl Orders<'_> {
         (after, least, dropped)
     }
 
-    /// Returns the posts, with their stops, that may be next.
+    /// Returns the posts that may be next after the stops `done`, each with its stop.
     fn open(&self, done: u64) -> impl Iterator<Item = (usize, usize)> + '_ {
         let open = self.allowed.get(done.count_ones() as usize).copied().unwrap_or(0) & !done;
         self.posts.iter().enumerate().map(|(post, &(stop, _))| (post, stop)).filter(move |&(_, stop)| open >> stop & 1 == 1)
@@ -93,26 +93,28 @@ impl Orders<'_> {
     }
 }
 
-/// Held and Karp's bound. A path through all remaining stops to the end consists of an edge to one of them, a spanning tree of them, and
-/// an edge from one of them to the end. A stop has a price for each edge that meets it. Subgradient ascent on the prices pushes the
-/// degrees of the least such tree towards those of a path. Any prices give a bound. All values are in 64ths of a step.
+/// Lower bound of Held and Karp. A path through all remaining stops to the end consists of an edge to one of them, a spanning tree of
+/// them, and an edge from one of them to the end. Each stop has a multiplier (`prices`) that is added to the cost of each of its edges.
+/// Subgradient ascent changes the multipliers so that the degrees in the minimum tree approach those of a path. Any multipliers give a
+/// valid bound. All values are in 64ths of a time step.
 pub struct Bound {
     nodes: usize,
-    /// Costs of edges, with the prices of their ends. Nodes are the stops, the end and the start; the end and the start have no price.
+    /// Costs of edges, including the multipliers of both nodes. Nodes are the stops, the end and the start, in this order; the multipliers
+    /// of end and start are 0.
     costs: Vec<i64>,
     prices: Vec<i64>,
-    /// Cached values of sets of stops: the tree with the edge to the end, and the durations.
+    /// Cache, by set of remaining stops: value of tree() plus the durations of the stops.
     trees: Map<u64, i64>,
     root: u32,
 }
 
-/// Cost of an edge that does not exist. Sums of existing edges are less.
+/// Cost of an edge that does not exist. Sums of costs of existing edges are less.
 const UNREACHABLE: i64 = 1 << 50;
 
-/// Converts 64ths of a step to whole steps, rounded up.
+/// Converts 64ths of a time step to whole time steps, rounded up.
 fn whole(value: i64) -> u32 { ((value.max(0) + 63) / 64).min(i64::from(NEVER) - 1) as u32 }
 
-/// The stops of a set.
+/// Returns the stops of a set of bits in ascending order.
 fn stops(mut set: u64) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let stop = set.trailing_zeros() as usize;
@@ -158,14 +160,14 @@ impl Bound {
         self.costs = plain.iter().zip(prices).map(|(cost, prices)| cost + prices).collect();
     }
 
-    /// Returns the cost and the stop of the cheapest edge from a node to one of these stops.
+    /// Returns the cost and the stop of the cheapest edge from a node to one of the stops `open`.
     fn nearest(&self, node: usize, open: u64) -> (i64, usize) {
         let costs = &self.costs[node * self.nodes..];
         stops(open).map(|stop| (costs[stop], stop)).min().expect("a stop")
     }
 
-    /// Returns the cost of a minimum spanning tree of these stops and of the edge to the end, minus the prices that a path pays: twice
-    /// that of each stop. Adds the degrees of the stops to `degrees`.
+    /// Returns the cost of a minimum spanning tree of the stops `open` plus the cheapest edge to the end, minus twice the multiplier of
+    /// each of these stops, because each has two edges in a path. Adds the degrees of the stops to `degrees`.
     fn tree(&self, open: u64, degrees: &mut [i64; 64]) -> i64 {
         let (cost, before) = self.nearest(self.nodes - 2, open);
         let mut value = cost - 2 * stops(open).map(|stop| self.prices[stop]).sum::<i64>();
@@ -194,7 +196,8 @@ impl Bound {
         value
     }
 
-    /// Returns a lower bound on the remaining cost with the stops `open` still to do and `last` done last. Returns NEVER if there is no path.
+    /// Returns a lower bound on the remaining cost if the stops `open` are left and `last` was done last. Returns NEVER if a required edge
+    /// does not exist.
     fn remains(&mut self, durations: &[u32], open: u64, last: usize) -> u32 {
         let (mut value, mut edge) = (0, self.costs[last * self.nodes + self.nodes - 2]);
         if open != 0 {

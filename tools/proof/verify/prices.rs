@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-//! Prices (docs/proof.md, section 4): the least cost of a path with the prices of the rows that it uses.
+//! Rule `prices` (docs/proof.md, section 4): the minimum, over the paths of an agent, of its cost plus the prices (Lagrangian
+//! multipliers) of the rows that the path uses.
 use crate::agent::NEVER;
 use crate::instance::Place;
 use crate::successors::{State, Successors};
@@ -7,22 +8,23 @@ use crate::tokens::Map;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Units of a price in a step.
+/// Number of price units in one time step of cost.
 pub const UNIT: u64 = 1024;
 
 #[derive(Default)]
 pub struct Prices {
     /// Price of being on a place at a time.
     at: Map<(Place, u32), u64>,
-    /// Price of being on a place at a time and at the time before.
+    /// Price of being on a place at a time and at the time step before.
     stay: Map<(Place, u32), u64>,
-    /// Price of moving between two places, the lower number first, and arriving at a time.
+    /// Price of a move between two places in either direction that arrives at a time. The place with the lower number comes first.
     go: Map<(Place, Place, u32), u64>,
-    /// For each agent, times and prices: an agent that costs at most the time pays the price.
+    /// For each agent, pairs of a time and a price. The agent pays the price if its cost is at most the time.
     finish: Map<u32, Vec<(u32, u64)>>,
     /// Sum of the prices of all rows.
     pub sum: u64,
-    /// For each place, times in ascending order, each with the sum of the prices from then on for an agent that rests there.
+    /// For each place, pairs of a time and a price, in ascending order of time. After close(), the price is the sum of the prices for an
+    /// agent that rests there from that time on.
     rests: Map<Place, Vec<(u32, u64)>>,
 }
 
@@ -56,13 +58,13 @@ impl Prices {
         }
     }
 
-    /// Returns the price of a step that arrives at `time`.
+    /// Returns the prices that a step pays which arrives at `time`, in units.
     fn step(&self, from: Place, to: Place, time: u32) -> u64 {
         let edge = if from == to { self.stay.get(&(from, time)) } else { self.go.get(&(from.min(to), from.max(to), time)) };
         edge.unwrap_or(&0) + self.at.get(&(to, time)).unwrap_or(&0)
     }
 
-    /// Returns the price of a path's end: of resting on `place` for ever, and of costing `time`.
+    /// Returns the prices that a path pays at its end, in units: for resting on `place` after `time` for ever, and for a cost of `time`.
     fn end(&self, agent: u32, place: Place, time: u32) -> u64 {
         let rows = self.rests.get(&place).map_or(&[][..], Vec::as_slice);
         let rest = rows.get(rows.partition_point(|row| row.0 <= time)).map_or(0, |row| row.1);
@@ -70,7 +72,8 @@ impl Prices {
         rest + finish.iter().filter(|row| time <= row.0).map(|row| row.1).sum::<u64>()
     }
 
-    /// Returns the least cost of a path of an agent with the prices that it pays, in units. Returns None if there is no path.
+    /// Returns the minimum, over the paths of an agent, of the cost plus the prices that the path pays, in units. If paths that cost more
+    /// than the limit of the model could be less, returns a lower bound on the minimum. Returns None if there is no path.
     pub fn of(&self, agent: u32, successors: &mut Successors) -> Option<u64> {
         let limit = successors.model.limit();
         let beyond = UNIT * (u64::from(limit) + 1);
@@ -102,7 +105,7 @@ impl Prices {
             let place = successors.place(&state);
             for step in successors.steps(state, time) {
                 let used = used + self.step(place, successors.place(&step), time + 1);
-                // A path whose last step changes nothing ends earlier, and costs that earlier time.
+                // A path whose last step does not change the state ends before this step and has a lower cost.
                 if step != state { end(successors, &mut waiting, &step, time + 1, used); }
                 push(successors, &mut waiting, step, time + 1, used);
             }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! The certificate: lemmas, the theorem, and the rules of their proofs (docs/proof.md, sections 3 and 4).
+//! Verifies a certificate: lemmas, the theorem, and the rules of their proofs (docs/proof.md, sections 3 and 4).
 use crate::agent::{AgentModel, Poses, NEVER};
 use crate::instance::Instance;
 use crate::joint::{Joint, Layers};
@@ -12,16 +12,18 @@ use crate::tokens::{ensure, unreadable, Fault, Tokens};
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// The bound `inf`, which no sum of costs reaches.
+/// The bound `inf`. No sum of costs reaches it.
 const INFINITE: u64 = u64::MAX;
 
+/// The statement that all plans of `agents` which satisfy `constraints` cost at least `bound` together.
 struct Lemma {
     agents: Vec<u32>,
     bound: u64,
     constraints: Vec<Constraint>,
 }
 
-/// The cost of an agent under the first `constraints` of its constraints, and a path of this cost.
+/// The least cost of an agent under the first `constraints` of its constraints, and a path of this cost. The path is empty if there is
+/// none, or if the cost is only known to exceed the limit of the model.
 struct Known {
     constraints: usize,
     cost: u32,
@@ -38,12 +40,13 @@ pub struct Verifier {
     lines: Lines,
     following: bool,
     lemmas: Vec<Lemma>,
-    /// The agents of the constraints in force, in the order in which these were added.
+    /// For each constraint in force, in the order of addition, its agent.
     trail: Vec<u32>,
     /// The constraints in force on each agent.
     constraints: Vec<Vec<Constraint>>,
-    /// How often each constraint is in force.
+    /// For each constraint in force, the number of times that it was added.
     present: HashMap<Constraint, u32>,
+    /// For each agent its known costs, with ascending numbers of constraints.
     known: Vec<Vec<Known>>,
     nodes: u64,
 }
@@ -70,7 +73,7 @@ impl Verifier {
         if line.ends_with(' ') { Err(unreadable("found a blank at the end of the line; expected none")) } else { Ok(line.to_string()) }
     }
 
-    /// After run(): whether the claim is about all plans, or only about those without following conflicts (false).
+    /// After run(): true if the claim is about all plans, false if it is only about plans without following conflicts.
     pub fn may_follow(&self) -> bool { self.following }
 
     /// Verifies the certificate. Returns the bound L of the theorem, or None for `inf`.
@@ -163,7 +166,7 @@ impl Verifier {
         *self.present.entry(constraint).or_insert(0) += 1;
     }
 
-    /// Adds the constraint of one branch of a split. An agent that rests on a place for ever bars it for all other agents.
+    /// Adds the constraint of one branch of a split. A Rest constraint also bars the place for all other agents of the statement.
     fn assume(&mut self, constraint: Constraint, agents: &[u32]) {
         self.push(constraint);
         for &agent in agents.iter().filter(|&&agent| constraint.kind == Kind::Rest && agent != constraint.agent) {
@@ -185,7 +188,7 @@ impl Verifier {
     /// Reads and verifies the proof of a statement. `line` is its first line.
     fn proof(&mut self, mut line: String, of: &Lemma) -> Result<(), Fault> {
         of.constraints.iter().for_each(|&constraint| self.push(constraint));
-        // For each open split: the length of the trail before it, and its second branch if that is not proven yet.
+        // For each open split, the length of the trail before it, and its second branch unless the proof of that has started.
         let mut splits: Vec<(usize, Option<Constraint>)> = Vec::new();
         loop {
             self.nodes += 1;
@@ -202,7 +205,8 @@ impl Verifier {
                 splits.push((self.trail.len(), Some(two)));
                 Some(one)
             } else {
-                // A proven node closes splits, up to the first one whose second branch is not proven yet.
+                // A proven node closes all innermost splits whose second branch was in progress, and then starts the second branch of
+                // the next split.
                 while splits.last().map_or(false, |split| split.1.is_none()) { splits.pop(); }
                 let second = splits.last_mut().and_then(|split| split.1.take());
                 self.undo(splits.last().map_or(0, |split| split.0));
@@ -233,7 +237,7 @@ impl Verifier {
         ensure(permitted, "a plan may satisfy neither of these constraints").map(|_| (one, two))
     }
 
-    /// Parses the number of a lemma, and refuses a lemma about other agents or with a constraint that is not in force.
+    /// Parses the number of a lemma and returns the lemma. Refuses a lemma about other agents, or with a constraint that is not in force.
     fn usable(&self, tokens: &mut Tokens, of: &Lemma) -> Result<&Lemma, Fault> {
         let number = tokens.index(self.lemmas.len(), "lemma")?;
         let lemma = &self.lemmas[number as usize];
@@ -259,7 +263,8 @@ impl Verifier {
         ensure(said, "the lemma is not about these two agents, or its bound is too small").map(|_| (one, two))
     }
 
-    /// Returns c(A, D), or, unless `exact`, a lower bound on it that is already known.
+    /// Returns c(A, D) of docs/proof.md. Unless `exact`, a lower bound that is already known suffices. If c(A, D) exceeds the limit of the
+    /// model, returns the limit + 1.
     fn cost(&mut self, agent: u32, exact: bool) -> u32 {
         self.model(agent);
         let number = agent as usize;
@@ -274,14 +279,14 @@ impl Verifier {
         let limit = if met { model.limit() } else { NEVER };
         let mut successors = Successors { model, chains: &self.chains, rules: &self.rules };
         let found = if met { self.search.least(&mut successors) } else { None };
-        // If the cost exceeds the limit of the model, only this is known.
+        // The search covers only paths that cost at most the limit of the model.
         let beyond = if limit < NEVER { limit + 1 } else { NEVER };
         let (cost, path) = found.filter(|found| found.0 <= limit).unwrap_or((beyond, Vec::new()));
         known.push(Known { constraints: constraints.len(), cost, path });
         cost
     }
 
-    /// If the cost of an agent is only known to exceed the limit of its model, raises this limit. Returns whether it did.
+    /// If the cost of an agent is only known to exceed the limit of its model, tries to raise this limit. Returns whether it succeeded.
     fn raise_limit(&mut self, agent: u32) -> bool {
         let last = self.known[agent as usize].last().map_or(NEVER, |last| if last.path.is_empty() { last.cost } else { NEVER });
         if last == NEVER { return false; }
@@ -333,7 +338,8 @@ impl Verifier {
         (met, Successors { model, chains: &self.chains, rules: &self.rules })
     }
 
-    /// Whether no plan of these agents costs at most `caps` each and less than `limit` together.
+    /// Returns whether these agents have no plan in which each agent costs at most its cap in `caps` and all agents together cost less
+    /// than `limit`.
     fn none_joint(&mut self, agents: &[u32], caps: &[u32], limit: Option<u64>) -> bool {
         let (mut horizon, mut layers) = (1, Vec::new());
         for &agent in agents {
@@ -349,7 +355,7 @@ impl Verifier {
         let (agents, places) = (self.models.len(), self.instance.world.links.len());
         ensure(of.agents.len() == agents && self.trail.is_empty(), "prices require all agents, without constraints")?;
         let mut prices = Prices::default();
-        let price = |tokens: &mut Tokens| tokens.number().map(u64::from);  // so small that no sum overflows
+        let price = |tokens: &mut Tokens| tokens.number().map(u64::from);  // below 2^32, so sums do not overflow
         loop {
             let line = self.line()?;
             let mut tokens = Tokens::of(&line);

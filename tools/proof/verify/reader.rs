@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! Reads the lines of a certificate as a stream, and decompresses them if necessary.
+//! Reads the lines of a certificate as a stream, which it decompresses if necessary.
 use std::ffi::c_void;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Error, ErrorKind, Read};
@@ -22,7 +22,7 @@ extern "C" {
 struct Zstd<R> {
     source: R,
     stream: *mut c_void,
-    /// Within a frame: more bytes must follow.
+    /// True within a zstd frame, when more bytes must follow.
     within: bool,
 }
 
@@ -34,7 +34,7 @@ impl<R: BufRead> Read for Zstd<R> {
             let mut input = Buffer { bytes: bytes.as_ptr() as *mut u8, size: bytes.len(), at: 0 };
             let mut out = Buffer { bytes: target.as_mut_ptr(), size: target.len(), at: 0 };
             if ended && !self.within { return Ok(0); }
-            // Sound: both buffers have the sizes given, zstd does not write to the input, and nothing else uses the stream.
+            // Safety: both buffers have the sizes given, zstd does not write to the input, and no other code uses the stream.
             let left = unsafe { ZSTD_decompressStream(self.stream, &mut out, &mut input) };
             let failed = unsafe { ZSTD_isError(left) } != 0;
             if failed || (ended && out.at == 0) {
@@ -68,7 +68,7 @@ impl Lines {
         Ok(Lines { source, line: Vec::new(), number: 0 })
     }
 
-    /// Returns the next line without its line feed, or None at the end of the file.
+    /// Returns the next line without its line feed. Returns None at the end of the file.
     pub fn next(&mut self) -> Result<Option<&str>, String> {
         self.number += 1;
         self.line.clear();

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-//! Constraints (docs/proof.md, section 2), and how those on one agent restrict its steps.
+//! Constraints (docs/proof.md, section 2), and the steps of one agent that its constraints allow.
 use crate::agent::{AgentModel, NEVER};
 use crate::instance::{Place, World};
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub enum Kind { Bar, Move, NoRest, Rest, Pass, Stop, NoStop }
 
-/// `p` and `q` are places, or number and task of a stop; `s` and `e` times.
+/// `p` and `q` are places; for Stop and NoStop they are the number and the task of the stop. `s` and `e` are times; e = s for Rest and
+/// NoRest.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Constraint {
     pub agent: u32,
@@ -17,7 +18,8 @@ pub struct Constraint {
     pub e: u32,
 }
 
-/// A row of inner places from `first` to `last` (docs/proof.md, section 1). `ends[0]` is the end next to `first`, `ends[1]` that next to `last`.
+/// A chain of inner places from `first` to `last` (docs/proof.md, section 1). `ends[0]` is the end next to `first`, `ends[1]` the end next
+/// to `last`. `length` is the number of steps from end to end.
 pub struct Chain {
     first: Place,
     last: Place,
@@ -25,7 +27,9 @@ pub struct Chain {
     pub length: u32,
 }
 
+/// All chains of a world.
 pub struct Chains {
+    /// For each place the number of its chain, or NONE.
     of: Vec<u32>,
     chains: Vec<Chain>,
 }
@@ -56,15 +60,15 @@ impl Chains {
         found
     }
 
-    /// Returns the side (1 or 2) on which a step between an inner place and an end enters or leaves the chain.
+    /// Returns the side of the chain (1: ends[0], 2: ends[1]) on which a step between the inner place and the end enters or leaves it.
     fn side(&self, inner: Place, end: Place) -> u8 {
         let chain = &self.chains[self.of[inner as usize] as usize];
         let second = if chain.first == chain.last { end != chain.ends[0] } else { inner == chain.last };
         1 + u8::from(second)
     }
 
-    /// Returns the number of the chain that a step from `inner` to `end` leaves, the side on which it does, and the chain. Returns None
-    /// if no step does.
+    /// Returns the number of the chain that a step from `inner` to `end` leaves, the side (1 or 2) on which it leaves, and the chain.
+    /// Returns None if `inner` and `end` are not the last place of a chain and the end next to it.
     pub fn exit(&self, inner: Place, end: Place) -> Option<(u32, u8, &Chain)> {
         let number = self.of[inner as usize];
         let chain = self.chains.get(number as usize)?;
@@ -74,20 +78,22 @@ impl Chains {
     }
 }
 
+/// Effect of the constraints on one place. Valid only if `stamp` equals that of Rules.
 #[derive(Clone, Copy, Default)]
 struct Mark {
     stamp: u32,
     first: u32,
     count: u32,
     leaves: bool,
-    /// An agent that arrives earlier may not come to rest with this arrival.
+    /// The agent may not rest on the place after an arrival before this time.
     rest: u32,
 }
 
-/// EARLY: the agent arrived too early to rest on its place. 4 or 8: it entered the chain on side 1 or 2.
+/// Flags of a state. EARLY: the agent arrived on its place too early to rest there. 4 or 8: it entered its chain on side 1 or 2.
 pub type Flags = u8;
 pub const EARLY: Flags = 1;
 
+/// The constraints on one agent in a form that the searches can query.
 #[derive(Default)]
 pub struct Rules {
     stamp: u32,
@@ -99,7 +105,7 @@ pub struct Rules {
     pub allowed: Vec<u64>,
     /// Whether a constraint restricts the order of stops.
     pub ordered: bool,
-    /// The first time after all finite times of constraints; 1 at least.
+    /// The first time after all finite times in constraints; at least 1.
     pub horizon: u32,
 }
 
@@ -116,7 +122,8 @@ impl Rules {
         Some(&self.marks[place as usize]).filter(|mark| mark.stamp == self.stamp)
     }
 
-    /// Stores the constraints on one agent, and restricts its model. Returns false if they contradict each other.
+    /// Replaces the rules by those for `constraints`, which are on the agent of `model`, and restricts the order of stops in the model.
+    /// Returns false if the agent would have to rest on two different places.
     pub fn set(&mut self, model: &mut AgentModel, chains: &Chains, constraints: &[Constraint]) -> bool {
         self.stamp += 1;
         self.moves.clear();
@@ -148,7 +155,7 @@ impl Rules {
                 }
             }
         }
-        // From the time at which the agent rests on, it is on no other place.
+        // A Rest constraint (p, s) keeps the agent on p from time s on, so all other places are free only before s.
         let away = rest.map_or(NEVER, |(_, time)| time.wrapping_sub(1));
         self.safe.clear();
         self.safe.push(if away == u32::MAX { (1, 0) } else { (0, away) });
@@ -175,36 +182,37 @@ impl Rules {
         true
     }
 
-    /// Adds a free interval from `from` to `to`, or to `end` if that is earlier.
+    /// Adds a free interval from `from` to min(`to`, `end`). Adds none if it would be empty.
     fn free(&mut self, from: u32, to: u32, end: u32) {
         if from != u32::MAX && to != u32::MAX && end != u32::MAX && from <= to.min(end) { self.safe.push((from, to.min(end))); }
     }
 
-    /// Returns the numbers of the intervals of time in which this place is free.
+    /// Returns the numbers of the time intervals in which this place is free.
     pub fn intervals(&self, place: Place) -> std::ops::Range<u32> {
         self.marked(place).map_or(0..1, |mark| mark.first..mark.first + mark.count)
     }
 
     pub fn interval(&self, number: u32) -> (u32, u32) { self.safe[number as usize] }
 
-    /// Returns the first interval of a place that ends at this time or later.
+    /// Returns the number of the first free interval of a place that ends at `time` or later; one past the last if none does.
     pub fn ending(&self, place: Place, time: u32) -> u32 {
         let range = self.intervals(place);
         let slice = &self.safe[range.start as usize..range.end as usize];
         range.start + slice.partition_point(|interval| interval.1 < time) as u32
     }
 
-    /// Returns the interval of a place that contains this time.
+    /// Returns the number of the free interval of a place that contains `time`. Returns None if the place is not free then.
     pub fn holding(&self, place: Place, time: u32) -> Option<u32> {
         Some(self.ending(place, time)).filter(|&number| number < self.intervals(place).end && self.safe[number as usize].0 <= time)
     }
 
-    /// Returns the first time at which an agent may arrive on the place in order to rest there.
+    /// Returns the first arrival time after which the agent may rest on the place.
     pub fn rest_from(&self, place: Place) -> u32 { self.marked(place).map_or(0, |mark| mark.rest) }
 
     pub fn arrived(&self, place: Place, time: u32) -> Flags { if time < self.rest_from(place) { EARLY } else { 0 } }
 
-    /// Returns the flags after a step between two places and, if the step ends a traversal, the chain and the side on which it is left.
+    /// Returns the flags after a step between two places and, if the step completes a traversal of a chain, the number of the chain and
+    /// the side on which the step leaves it.
     pub fn passing(&self, chains: &Chains, flags: Flags, from: Place, to: Place) -> (Flags, Option<(u32, u8)>) {
         let known = |place: Place| Some(chains.of[place as usize]).filter(|&chain| self.passes.iter().any(|pass| pass.0 == chain));
         if self.passes.is_empty() { return (0, None); }
@@ -214,7 +222,8 @@ impl Rules {
         (0, exit.filter(|&(_, side)| flags >> 2 != 0 && flags >> 2 != side))
     }
 
-    /// Returns the first time from `lo` to `hi` at which the agent may arrive by this step.
+    /// Returns the first time from `lo` to `hi` at which the agent may arrive by this step. `exit` is the traversal that the step
+    /// completes, as returned by passing(). Returns None if it may not arrive in this interval.
     pub fn arrival(&self, from: Place, to: Place, exit: Option<(u32, u8)>, lo: u32, hi: u32) -> Option<u32> {
         let leaves = self.marked(from).map_or(false, |mark| mark.leaves);
         let mut time = lo;

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: MIT
-//! Least costs of one agent: A* over labels. A label is a state and an interval of time in which its place is free (safe interval). The
-//! earliest label of a state and interval dominates the later ones, because the agent can wait.
+//! Least cost of one agent by safe-interval A*. A label is a state, a time interval in which its place is free (safe interval), and an
+//! arrival time. The earliest label of a state and interval dominates later ones, because the agent can wait.
 use crate::agent::NEVER;
 use crate::instance::Place;
 use crate::rules::{Constraint, Kind};
 use crate::successors::{Arrival, State, Successors};
 
-/// An arrival, and the number of the label before it.
+/// An arrival, and the number of its parent label in `labels`.
 type Label = (Arrival, u32);
 
-/// Times of arrival and places; the start is the first.
+/// The places of a path in order, each with the arrival time. The first entry is the start, at time 0.
 pub type Path = Vec<(u32, Place)>;
 
 #[derive(Default)]
 pub struct Search {
-    /// Open labels, in buckets: the lower bound of a label minus that of the start.
+    /// Open labels in buckets. The number of a bucket is the lower bound of its labels minus that of the start.
     waiting: Vec<Vec<Label>>,
-    /// The earliest label of each kind that was taken so far.
+    /// Expanded labels. A label's kind is its state and interval; the first expanded label of a kind is the earliest.
     labels: Vec<Label>,
-    /// Hash table of kinds of labels: pose, stops done, interval, and the number of the search with the flags.
+    /// Hash table of the kinds of expanded labels: pose, number of the stops done, interval, and `searches` << 4 | flags.
     table: Vec<[u32; 4]>,
     pub searches: u32,
 }
 
 impl Search {
-    /// Returns the least cost and a path of this cost. Returns None if no path costs at most the limit of the model.
+    /// Returns the least cost of the agent and a path of this cost. Returns None if no path has a cost up to the limit of the model.
     pub fn least(&mut self, successors: &mut Successors) -> Option<(u32, Path)> {
         self.searches += 1;
         assert!(self.searches < 1 << 28, "fewer searches");
@@ -63,7 +63,7 @@ impl Search {
         }
     }
 
-    /// Whether the label is the first of its kind, and therefore the earliest.
+    /// Returns whether the label is the first of its kind, and therefore the earliest; stores its kind.
     fn is_first(&mut self, &((state, interval, _), _): &Label) -> bool {
         if self.table.len() < 2 * self.labels.len() + 1024 {
             let old = std::mem::take(&mut self.table);
@@ -85,7 +85,7 @@ impl Search {
         true
     }
 
-    /// Returns the path to the last label.
+    /// Returns the path to the last expanded label.
     fn path(&self, successors: &Successors) -> Path {
         let (mut path, mut number) = (Path::new(), self.labels.len() as u32 - 1);
         while number != u32::MAX {
@@ -103,7 +103,7 @@ impl Search {
     }
 }
 
-/// Whether a path certainly satisfies a constraint. False if the path alone does not show this.
+/// Returns whether the places and times of a path suffice to show that it satisfies a constraint. For Stop and NoStop they never do.
 pub fn surely_satisfies(path: &Path, constraint: &Constraint) -> bool {
     let Constraint { kind, p, q, s, e, .. } = *constraint;
     let (arrival, last) = path[path.len() - 1];

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-//! States of one agent under constraints, and the steps between them, for all searches.
+//! States of one agent under constraints, and the steps between them. All searches use them.
 use crate::agent::{AgentModel, NEVER};
 use crate::instance::Place;
 use crate::rules::{Chains, Rules, Flags, EARLY};
 
-/// `done`: number of the set of stops done; `left`: remaining steps of work on the last of them.
+/// A state of an agent. `done`: number of its set of stops done; `left`: remaining time steps of the task execution at the last of them.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct State {
     pub pose: u32,
@@ -13,7 +13,7 @@ pub struct State {
     pub flags: Flags,
 }
 
-/// A state, the number of the interval of time in which its place is free, and a time in this interval.
+/// A state, the number of a time interval in which its place is free, and the arrival time, which is in this interval.
 pub type Arrival = (State, u32, u32);
 
 pub struct Successors<'a> {
@@ -39,13 +39,15 @@ impl Successors<'_> {
         found
     }
 
-    /// Adds the stops on this place that take no time, unless the order of stops is constrained: they are done on arrival.
+    /// Returns `done` with the stops that are done on arrival at this place. These are all stops there that take no time, and none if the
+    /// order of stops is constrained.
     fn done_on(&self, place: Place, done: u64) -> u64 {
         let here = self.model.stops_at(place) & !done;
         if here == 0 || self.rules.ordered { done } else { done | self.model.has_no_duration(here) }
     }
 
-    /// Returns the states in which a stop on this place is the next one: it is done, or work on it begins.
+    /// Returns the states that follow without a step if the agent counts a stop on its place as the next one. If the stop takes time, its
+    /// task execution starts.
     pub fn choices(&mut self, state: State) -> Vec<State> {
         let done = self.model.done(state.done);
         let mut open = self.model.stops_at(self.place(&state)) & !done;
@@ -60,7 +62,8 @@ impl Successors<'_> {
         found.extend(self.choices(state));
     }
 
-    /// Whether the path ends in this state: the order of stops is constrained, and the agent rests where it did the last stop.
+    /// Returns whether the path must end in this state, because all stops are done, their order is constrained, and the agent rests on the
+    /// place of its last stop.
     pub fn over(&self, state: &State) -> bool { self.rules.ordered && self.model.rests_on_last && self.full(state) }
 
     /// Returns the states at `time` + 1 that may follow `state` at `time`.
@@ -76,8 +79,8 @@ impl Successors<'_> {
         found
     }
 
-    /// Appends to `found` the earliest arrivals in other poses. The agent may be on its place until `stays`, and may leave it for another
-    /// place at `leaves` at the latest.
+    /// Appends to `found` the earliest arrivals in neighbouring poses. The agent can be on its place until time `stays` and must leave it
+    /// for a different place by time `leaves`.
     pub fn go(&mut self, (state, interval, time): Arrival, (stays, leaves): (u32, u32), found: &mut Vec<Arrival>) {
         let (from, poses) = (self.place(&state), self.model.poses.clone());
         for &pose in poses.next(state.pose) {
@@ -108,13 +111,13 @@ impl Successors<'_> {
         }
     }
 
-    /// Returns a lower bound on the remaining cost.
+    /// Returns a lower bound on the remaining cost from this state.
     pub fn remains(&self, state: &State) -> u32 { state.left + self.model.remains(state.done, state.pose) }
 
-    /// Whether the agent may rest in this state, if its place is free for ever.
+    /// Returns whether the agent may rest in this state, provided that its place is free for ever.
     pub fn rests(&self, state: &State) -> bool { state.flags & EARLY == 0 && self.full(state) && self.remains(state) == 0 }
 
-    /// Whether a path may end in this state at this time.
+    /// Returns whether a path may end in this state at this time.
     pub fn may_end(&self, state: &State, time: u32) -> bool {
         let holding = self.rules.holding(self.place(state), time);
         holding.map_or(false, |number| self.rules.interval(number).1 == NEVER) && self.rests(state)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-//! Tokens of a line, and faults of certificates.
+//! Splits lines into tokens, and reports faults in certificates.
 use crate::agent::NEVER;
 use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// The exit code (1: refused, 2: unreadable) and the reason.
+/// A fault in a certificate: the exit code (1: refused, 2: unreadable) and the reason.
 pub type Fault = (i32, String);
 
 pub fn unreadable(reason: impl Into<String>) -> Fault { (2, reason.into()) }
@@ -12,7 +12,7 @@ pub fn unreadable(reason: impl Into<String>) -> Fault { (2, reason.into()) }
 /// Refuses the certificate unless `good`.
 pub fn ensure(good: bool, reason: impl Into<String>) -> Result<(), Fault> { if good { Ok(()) } else { Err((1, reason.into())) } }
 
-/// A fast hash for keys that searches create. Not for keys that a file contains.
+/// A fast hash for keys that searches create. Do not use it for keys from files, because it does not resist crafted collisions.
 #[derive(Default)]
 pub struct Quick(u64);
 
@@ -55,7 +55,7 @@ impl<'a> Tokens<'a> {
         ensure((value as usize) < count, format!("there is no {} {}", what, value)).map(|_| value)
     }
 
-    /// A number or `inf`.
+    /// Parses a number or `inf`. Returns None for `inf`.
     pub fn or_inf(&mut self) -> Result<Option<u32>, Fault> {
         if self.0.clone().next() != Some("inf") { return self.number().map(Some); }
         self.0.next();

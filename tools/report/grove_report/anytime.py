@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Quality over time: cost of the plans and lower bounds that runs had by a given time.
+"""Computes quality over time: plan costs and lower bounds that runs have reached by a given time.
 
-The last plan of a run was checked. Earlier plans are as the run reports them; a reported plan that is cheaper than
-the last one is ignored. A run that reports no earlier plan has its plan when it ends. Runs that differ only in the
-seed share the weight of their instance.
+Only the last plan of a run was checked. Earlier plans are taken as the run reports them, except that reported plans
+cheaper than the last one are ignored. A run that reports no earlier plan gets its plan when it ends. Runs that differ
+only in the seed share the weight of their instance.
 """
 import itertools
 from collections import Counter
@@ -14,20 +14,20 @@ from .metrics import by_line, cost_ratio, has_plan
 
 
 class Step(NamedTuple):
-    """Values from `seconds` on; None: not known."""
+    """Values from time `seconds` until the next step; None: unknown."""
     seconds: float
-    with_plan: float             # share of the instances with a plan
-    common_with_plan: float      # share of the common instances with a plan of known cost
-    cost_ratio: Optional[float]  # mean over these, of cost / best known cost
-    cost_over_bound: Optional[float]  # mean over these, of cost / best lower bound
-    bound_ratio: Optional[float]  # mean over the common instances of bound / best known cost, once all have a bound
+    with_plan: float             # share of the instances that have a plan by now
+    common_with_plan: float      # share of the common instances that have a plan of known cost by now
+    cost_ratio: Optional[float]  # mean of cost / best known cost over the common instances with such a plan
+    cost_over_bound: Optional[float]  # mean of cost / best lower bound over those of them that have a bound
+    bound_ratio: Optional[float]  # mean of bound / best known cost over all common instances; None until all have one
 
 
 class Curve(NamedTuple):
-    steps: list  # by time
+    steps: list  # Steps in ascending order of time
 
     def at(self, seconds):
-        """Returns the step in force at this time. Returns None before the first step."""
+        """Returns the Step that holds at this time. Returns None before the first step."""
         found = None
         for step in self.steps:
             if step.seconds > seconds:
@@ -37,15 +37,15 @@ class Curve(NamedTuple):
 
 
 class Panel(NamedTuple):
-    """Curves of one map, or of one number of agents if there is only one map."""
+    """The Curves for one map, or for one number of agents if there is only one map."""
     title: str
     instances: int
-    common: int    # instances for which every line has a plan, with every seed
+    common: int    # number of instances for which every line has a plan with every seed
     curves: dict   # {line: Curve}
 
 
 def plans_over_time(row):
-    """Returns [(seconds, cost)] with falling costs; the last one is the checked plan."""
+    """Returns [(seconds, cost)] with decreasing costs; the last entry is the checked plan."""
     if not has_plan(row):
         return []
     found = []
@@ -53,20 +53,20 @@ def plans_over_time(row):
         if point.cost >= row.cost and (not found or point.cost < found[-1][1]):
             found.append((point.seconds, point.cost))
     if not found or found[-1][1] > row.cost:
-        # A solved run may end slightly after its limit: its plan counts at the limit. Any other run has its plan
-        # when it ends.
+        # A solved run can end slightly after its limit; its plan then counts from the limit on. The plan of any other
+        # run counts from the end of the run.
         found.append((min(row.ended_s, row.time_limit_s) if row.solved else row.ended_s, row.cost))
     return found
 
 
 def first_plan(row):
-    """Returns the time of the first plan, of any cost. `row`: a row with a plan."""
+    """Returns the time of the first plan, even if its cost is unknown. `row`: a row with a plan."""
     known = plans_over_time(row)[0][0]
     return known if row.first_plan_s is None else min(known, row.first_plan_s)
 
 
 def bounds_over_time(row):
-    """Returns [(seconds, bound)] with rising bounds. Those of other solvers before the end are claims."""
+    """Returns [(seconds, bound)] with increasing bounds. Bounds of other solvers before the end are only claims."""
     points = [(point.seconds, point.lower_bound) for point in row.trace if point.lower_bound is not None]
     found = []
     for seconds, bound in [*points, *([] if row.lower_bound is None else [(row.ended_s, row.lower_bound)])]:
@@ -76,25 +76,28 @@ def bounds_over_time(row):
 
 
 def is_anytime(rows):
-    """Returns whether runs of a line report improvements of their plans."""
+    """Returns whether any run of a line is anytime or reports an improvement of its plan."""
     return any(row.anytime or len(row.trace) > 1 for row in rows)
 
 
 def common_with_plans(groups):
-    """Returns the instances for which every run has a plan, of every line that has any plan. `groups`: {line: rows}."""
+    """Returns the instances for which every run of every line has a plan. Lines without any plan do not count.
+
+    groups: {line: rows}.
+    """
     found = [{row.instance for row in rows} - {row.instance for row in rows if not has_plan(row)}
              for rows in groups.values() if any(map(has_plan, rows))]
     return set.intersection(*found) if found else set()
 
 
 def _in_turn(what, values):
-    """Returns [(seconds, what, value before, value from then on)]."""
+    """Returns [(seconds, what, previous value, new value)] for [(seconds, value)]; the first previous value is None."""
     befores = [None, *(value for _, value in values)]
     return [(seconds, what, before, value) for (seconds, value), before in zip(values, befores)]
 
 
 def _changes(row, best, bounds, common):
-    """Yields (seconds, what changes, old value, new value) of a run."""
+    """Yields (seconds, what changes, previous value, new value) for each change in a run."""
     if not has_plan(row):
         return
     yield first_plan(row), "plan", None, 1
@@ -110,7 +113,7 @@ def _changes(row, best, bounds, common):
 
 
 def curve(rows, best, bounds, common):
-    """Returns the Curve of the rows of one line. `best`, `bounds`: best_costs(), best_bounds()."""
+    """Returns the Curve for the rows of one line. `best`, `bounds`: results of best_costs() and best_bounds()."""
     seeds = Counter(row.instance for row in rows)
     changes = [(seconds, what, 1 / seeds[row.instance], before, after) for row in rows
                for seconds, what, before, after in _changes(row, best, bounds, common) if after is not None]
@@ -133,8 +136,7 @@ def _step(seconds, weights, sums, instances, common):
 
 
 def panels(rows, best, bounds):
-    """Returns the Panels of the anytime lines: one for each map, or one for each number of agents if there is only one
-    map."""
+    """Returns the Panels for the anytime lines, one per map, or one per number of agents if there is only one map."""
     lines = {line for line, group in by_line(rows).items() if is_anytime(group)}
     rows = [row for row in rows if (row.method, row.omega, row.time_limit_s) in lines]
     one_map = len({row.map for row in rows}) == 1
@@ -150,6 +152,6 @@ def panels(rows, best, bounds):
 
 
 def table_times(limit):
-    """Returns 1, 2, 5, 10, ... times powers of ten from a thousandth of the limit on, and the limit."""
+    """Returns the times 1, 2 and 5 times powers of ten from limit / 1000 up to the limit, and the limit itself."""
     return [*(time for exponent in range(-4, 7) for time in (float(f"{digit}e{exponent}") for digit in (1, 2, 5))
               if limit / 1000 <= time < limit), limit]

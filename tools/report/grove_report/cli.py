@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Command line of grove report."""
+"""Implements the command line of grove report."""
 import argparse
 import contextlib
 import io
@@ -117,7 +117,7 @@ def _known(option, names, found):
 
 
 def _names_of(rows):
-    """Returns {name in figures or in rows: method}."""
+    """Returns {name: method} with the names that the figures show and those in the rows."""
     return {method_name(row.method): row.method for row in rows} | {row.method: row.method for row in rows}
 
 
@@ -172,7 +172,7 @@ def _submitting_method(a, rows):
 
 
 def _write_whole(path, text):
-    """Writes a file atomically: all of it or nothing. Raises BadInput."""
+    """Writes a file completely or not at all. Raises BadInput if it cannot be written."""
     part = path.with_name(f".{path.name}.{os.getpid()}")
     try:
         part.write_text(text, encoding="utf-8", newline="")
@@ -196,13 +196,13 @@ def _write_submission(a, results):
 
 
 def _print(text):
-    """Prints the text and returns the exit code, which reports a full disk or a closed pipe."""
+    """Prints the text and returns the exit code, which is a failure if the text cannot be written (full disk, pipe)."""
     try:
         print(text, end="", flush=True)
         return 0
     except OSError:
         _complain("standard output: cannot be written")
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush when Python exits
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # so that Python's flush at exit succeeds
         return INTERNAL_FAILURE
 
 
@@ -241,6 +241,6 @@ def main(arguments):
     except BadInput as error:
         _complain(str(error))
         return BAD_INPUT
-    except SystemExit:  # of --help
+    except SystemExit:  # raised by --help
         pass
     return _print(output.getvalue())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Search counters, summed over the runs of each line."""
+"""Sums search counters over the runs of each line."""
 from collections import defaultdict
 from typing import NamedTuple
 
@@ -29,7 +29,7 @@ LABELS = {
 
 
 class Counters(NamedTuple):
-    """Counters of those runs of a line that report any."""
+    """Sums of counters over the runs of a line that report counters."""
     runs: int
     totals: dict  # {name: sum over the runs}
 
@@ -37,7 +37,7 @@ class Counters(NamedTuple):
         return self.totals.get(name, 0) / self.runs
 
     def splits(self):
-        """Returns {kind: number} of the kinds that occurred."""
+        """Returns {kind: number of splits} for the kinds that occurred."""
         return {name.removeprefix(SPLITS): total for name, total in self.totals.items()
                 if name.startswith(SPLITS) and total > 0}
 
@@ -48,7 +48,7 @@ class Counters(NamedTuple):
 
 
 def counters_by_line(rows):
-    """Returns {line: Counters}, without lines of which no run reports counters."""
+    """Returns {line: Counters} for the lines with at least one run that reports counters."""
     found = {}
     for line, group in by_line(row for row in rows if row.counts).items():
         totals = defaultdict(int)
@@ -64,13 +64,14 @@ def kind_label(kind):
 
 
 def split_kinds(counters):
-    """Returns the kinds of splits of all lines: those in KINDS first, in the order of KINDS."""
+    """Returns the kinds of splits that occur in any line: first those in KINDS, in that order, then the others by name.
+    """
     found = {kind for each in counters.values() for kind in each.splits()}
     return [kind for kind in KINDS if kind in found] + sorted(found - KINDS.keys())
 
 
 def cache_names(counters):
-    """Returns the names of all caches that any line has queried."""
+    """Returns the names of all caches for which any line has a query counter."""
     return sorted({name.removesuffix("_queries") for each in counters.values() for name in each.totals
                    if name.endswith("_queries")})
 
@@ -84,7 +85,7 @@ def label(name):
 
 
 def other_names(counters):
-    """Returns the counters of all lines except splits and caches: those in LABELS first."""
+    """Returns the names of all other counters (neither splits nor caches), first those in LABELS."""
     found = {name for each in counters.values() for name in each.totals
              if not name.startswith(SPLITS) and not name.endswith(("_queries", "_hits"))}
     return [name for name in LABELS if name in found] + sorted(found - LABELS.keys())

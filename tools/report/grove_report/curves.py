@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Plots as wide as a column of a paper: success over the number of agents, quality over time, single runs."""
+"""Draws plots as wide as a column of a paper: success over the number of agents, quality over time, single runs."""
 import math
 
 import matplotlib
@@ -14,8 +14,8 @@ from .style import COLOURS, DASHES, MARKERS, depth, plot_arguments
 TITLE = 0.4  # height of two lines, inches
 LEFT, RIGHT = 0.46, 0.06
 DIGITS = 0.13  # additional left margin for numbers of four digits, inches
-RUN_DASHES = [pattern for pattern in DASHES if pattern[0] > 2]  # bounds are dotted
-MOST_STEPS = 300  # steps drawn per curve
+RUN_DASHES = [pattern for pattern in DASHES if pattern[0] > 2]  # without dotted patterns, which are for bounds
+MOST_STEPS = 300  # maximum number of steps that are drawn per curve
 
 ANYTIME_CAPTION = (
     "Cost ratio: cost / best known cost, mean over the common instances (all methods end with a plan). Thin: while "
@@ -34,14 +34,17 @@ def _range(numbers):
 
 
 def behind(points):
-    """Returns '25 instances, 3 seeds' for the points of a panel, [Measures]."""
+    """Returns a text such as '25 instances, 3 seeds' for the points of a panel. `points`: list of Measures."""
     instances, seeds = _range([point.instances for point in points]), _range([point.seeds for point in points])
     return (f"{instances} instance{'s' * (instances != '1')}"
             + (f", {seeds} seeds" if seeds != "1" else ""))
 
 
 def success(groups, lines, looks):
-    """Plots the success rate over the number of agents. `groups`: {map: {agents: {line: Measures}}}, one panel each."""
+    """Plots the success rate over the number of agents, one panel per map.
+
+    groups: {map: {agents: {line: Measures}}}.
+    """
     with matplotlib.rc_context(SETTINGS):
         across, down = _grid(len(groups))
         legend = legend_height(lines, looks, COLUMN)
@@ -90,7 +93,7 @@ def _finish(figure, axes, used, lines, looks):
 
 
 def _thin(points, most=MOST_STEPS):
-    """Reduces the points on a log axis to the last one of each small interval; the first and the last point stay."""
+    """Keeps only the last point in each small interval of a log axis, and the first and the last point of all."""
     if len(points) <= most:
         return points
     first, last = max(points[0][0], SHORTEST_S), max(points[-1][0], 2 * SHORTEST_S)
@@ -100,7 +103,7 @@ def _thin(points, most=MOST_STEPS):
 
 
 def _stairs(ax, points, last, arguments, marks):
-    """Plots a step function through `points` until `last`, with about `marks` markers; 0: without markers."""
+    """Plots a step function through `points` up to time `last` with about `marks` markers (0: none)."""
     points = _thin([(max(time, SHORTEST_S), value) for time, value in points])
     times, values = [time for time, _ in points], [value for _, value in points]
     marker = {key: arguments.pop(key) for key in list(arguments) if key.startswith("marker")}
@@ -204,7 +207,7 @@ def _set_ratio(ax, values):
 
 
 def runs(groups):
-    """Plots lower bound and plan of single runs over time. `groups`: {title: [logs.Run]}, one panel each."""
+    """Plots lower bound and plan cost of single runs over time, one panel per title. `groups`: {title: [logs.Run]}."""
     with matplotlib.rc_context(SETTINGS):
         panel, bottom = 1.6, 0.42
         heights = [TITLE + panel + bottom + 0.17 * len(found) + 0.05 for found in groups.values()]

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Plots that compare methods. Every function returns a matplotlib Figure; drawn() makes its SVG and PNG.
+"""Draws plots that compare methods. The plot functions return a matplotlib Figure; drawn() converts it to SVG and PNG.
 
-All figures are narrow: at a width of 500 pixels, half a laptop's screen or all of a phone's, text is at least 10
-pixels high.
+All figures are narrow, so that text is at least 10 pixels high at a width of 500 pixels, which is half the screen of a
+laptop or the whole screen of a phone.
 
-pyplot is not used, because it keeps figures and settings for the whole process.
+This package does not use pyplot, because pyplot keeps figures and settings for the whole process.
 """
 import io
 import itertools
@@ -37,17 +37,17 @@ SETTINGS = {
     "xtick.color": "#222222", "ytick.color": "#222222", "axes.edgecolor": "#555555"}
 WIDTH = 5.2  # width of a figure, inches
 COLUMN = 3.4  # width of a column of a paper, inches
-SMALLEST = 7.5  # smallest font, points: 500 / WIDTH * 7.5 / 72 = 10 pixels
+SMALLEST = 7.5  # smallest font size, points; at a width of 500 pixels, 500 / WIDTH * 7.5 / 72 = 10 pixels
 PNG_DPI = 160
-PNG_COMPRESSION = 3  # from 0 to 9: twice as fast as 6, and two per cent larger
+PNG_COMPRESSION = 3  # from 0 to 9; twice as fast as level 6, with files two per cent larger
 FAINT = "#767676"
-# Shorter times are drawn as this time: it is the resolution of the clock, and a log axis needs a positive time.
+# Shorter times are drawn as this time, which is the resolution of the clock; a log axis needs positive times.
 SHORTEST_S = 0.001
 
 
 class Metric(NamedTuple):
     label: str
-    value: object        # function of Measures
+    value: object        # function: Measures -> number or None
     axis: str = "plain"  # "percent", "seconds", "ratio" (at most 1), "excess" (at least 1), "count"
 
 
@@ -60,7 +60,7 @@ ROOTS = Metric("mean number of roots", lambda m: m.mean_roots, "count")
 RTSP_CALLS = Metric("mean number of rTSP calls", lambda m: m.mean_rtsp_calls, "count")
 
 
-# Captions are part of the figure, so that it can be read outside the report.
+# Captions are part of the image, so that it is understandable outside the report.
 SQR_CAPTION = ("SQR of solved runs: over the runs that each method solved, so a method that solves only easy instances "
                "looks better. Common: over the instances that all methods solve (of those that solve any), so these "
                "values compare.")
@@ -69,7 +69,7 @@ RATIO_CAPTION = ("Cost ratio: cost / least cost that any method found for the in
 
 
 def drawn(figure):
-    """Returns the SVG as text and the PNG as bytes; equal figures give equal files."""
+    """Returns the figure as SVG (text) and PNG (bytes). Equal figures give equal files."""
     with matplotlib.rc_context(SETTINGS), warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Glyph .* missing")  # matplotlib draws a box for a missing glyph
         FigureCanvasAgg(figure)
@@ -85,16 +85,18 @@ def new_figure(height, width=WIDTH):
 
 
 def _longest_tick(ax):
-    """Returns the length of the longest number at the vertical axis, characters."""
+    """Returns the length of the longest tick label on the vertical axis, in characters."""
     low, high = sorted(ax.get_ylim())
     name = ax.yaxis.get_major_formatter()
     return max((len(name(tick)) for tick in ax.get_yticks() if low <= tick <= high), default=0)
 
 
 def pin_labels(axes, left):
-    """Places the labels of the axes at fixed distances in inches, further left where the numbers are long.
-    matplotlib's automatic placement takes as long as the rest of the figure. `axes`: all panels of a figure, of one
-    size."""
+    """Places axis labels at fixed distances, in inches, further left if tick labels are long.
+
+    Replaces matplotlib's automatic placement, which takes as long as the rest of the figure. axes: all panels of the
+    figure, which must have the same size.
+    """
     figure, box = axes[0][0].figure, axes[0][0].get_position()
     left = max(left, 0.16 + 0.062 * max(_longest_tick(row[0]) for row in axes))
     for ax in axes.flat:
@@ -107,14 +109,14 @@ def number(value, _=None):
 
 
 def _set_log_range(ax, lowest, highest):
-    """Sets the range of a log axis, with ticks between the powers of ten where there are few of these."""
+    """Sets the range of a log axis, with ticks between powers of ten if the range has few of them."""
     ax.set_ylim(lowest, highest)
     ax.yaxis.set_major_locator(LogLocator(
         subs=(1, 2, 5) if highest / lowest < 100 else (1,), numticks=12))
 
 
 def _set_axis(ax, metric, values, limits):
-    """Sets scale and ticks of the y axis. `values`: all values that it will show."""
+    """Sets scale and ticks of the y axis. `values`: all values that the axis must show."""
     if metric.axis == "percent":
         ax.set_ylim(-6, 106)
         ax.yaxis.set_major_locator(FixedLocator([0, 25, 50, 75, 100]))
@@ -171,7 +173,7 @@ def _set_x(ax, x_values, name):
 
 
 def plot_metric(ax, cells, x_of, lines, metric, looks, offsets):
-    """Plots one panel. `cells`: {cell: {line: Measures}}; a cell without the line is a gap in the line."""
+    """Plots one panel. `cells`: {cell: {line: Measures}}; a line has a gap at a cell without Measures for it."""
     drawn = False
     for rank, line in enumerate(lines):
         points = [(x_of(cell) + offsets[line], metric.value(found[line]) if line in found else None)
@@ -185,7 +187,7 @@ def plot_metric(ax, cells, x_of, lines, metric, looks, offsets):
 
 
 def _legend_columns(labels, width=WIDTH):
-    """Returns the number of columns of a legend."""
+    """Returns the number of columns for a legend with these labels."""
     entry = 0.62 + 0.068 * max(map(len, labels)) if width == WIDTH else 0.4 + 0.062 * max(map(len, labels))
     fitting = max(1, int((width - 0.1) / entry))
     lines = math.ceil(len(labels) / fitting)
@@ -193,7 +195,7 @@ def _legend_columns(labels, width=WIDTH):
 
 
 def _handles(lines, labels, looks, nested):
-    # matplotlib omits labels that begin with _.
+    # A space before the label, because matplotlib omits labels that start with "_".
     depths = [depth(rank, len(lines)) if nested else APART for rank in range(len(lines))]
     return [Line2D([], [], label=" " * label.startswith("_") + label,
                    **plot_arguments(looks.style(line), below))
@@ -222,16 +224,18 @@ def _values(cells, lines, metric):
 
 class Columns(NamedTuple):
     """Columns and x axis of a comparison."""
-    keys: list        # of the columns, by map; key[0] is the map
-    key_of: object    # cell -> key
-    x_of: object      # cell -> x
+    keys: list        # keys of the columns, ordered by map; key[0] is the map
+    key_of: object    # function: cell -> key
+    x_of: object      # function: cell -> x
     x_name: str
-    title_of: object  # key -> title of the column
+    title_of: object  # function: key -> title of the column
 
 
 def columns_of(cells):
-    """Returns columns by map and N, with M along x, as in the paper. If M does not vary: columns by map and M, with N
-    along x."""
+    """Returns the Columns: one per map and N with M on the x axis, as in the paper.
+
+    If M does not vary, returns one per map and M with N on the x axis.
+    """
     if len({cell.tasks for cell in cells}) > 1:
         keys = sorted({(cell.map, cell.agents) for cell in cells})
         return Columns(keys, lambda cell: (cell.map, cell.agents), lambda cell: cell.tasks,
@@ -242,8 +246,10 @@ def columns_of(cells):
 
 
 def comparison(cells, all_cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR, COMMON_SQR, COST_RATIO)):
-    """Plots one row per metric: those of the paper's Fig. 5, then SQR on common instances and the cost ratio. `cells`:
-    {cell: {line: Measures}}, a part of `all_cells`, which determine the ranges of the axes."""
+    """Plots one row of panels per metric: those of the paper's Fig. 5, then SQR on common instances and the cost ratio.
+
+    cells: {cell: {line: Measures}}, a subset of all_cells; all_cells determines the ranges of the axes.
+    """
     with matplotlib.rc_context(SETTINGS):
         columns = columns_of(all_cells)
         keys = sorted(set(map(columns.key_of, cells)))
@@ -285,7 +291,7 @@ def comparison(cells, all_cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR, C
 
 
 def wrapped(texts, width=WIDTH):
-    """Wraps a caption to the width of a figure; returns its lines."""
+    """Joins texts to a caption and returns its lines, wrapped to the width of a figure in inches."""
     return textwrap.wrap(" ".join(texts), int(width / 0.062))
 
 
@@ -308,7 +314,7 @@ def _name_maps(figure, keys, axes, y):
 
 
 def _thinned(times, first, last, bins=300):
-    """Returns [(time, number solved by then)]: of points close together on the log axis only the last."""
+    """Returns [(time, number solved by then)] with only the last of several points that are close on the log axis."""
     scale = bins / math.log(last / first)
     points = {}
     for count, time in enumerate(times, 1):
@@ -318,7 +324,7 @@ def _thinned(times, first, last, bins=300):
 
 
 def _plot_solved(ax, rows, first, last, arguments, phase):
-    """Plots a step function from `first` to the time limit, with 5 markers shifted by `phase`, from 0 to 1."""
+    """Plots the number of solved instances from time `first` to `last`, with 5 markers shifted by `phase` (0 to 1)."""
     points = _thinned(solved_over_time(rows), first, last)
     xs = [first, *[x for x, _ in points], last]
     ys = [0, *[y for _, y in points], points[-1][1] if points else 0]
@@ -330,7 +336,7 @@ def _plot_solved(ax, rows, first, last, arguments, phase):
 
 
 def cactus(groups, lines, looks, per_row=2):
-    """Plots the number of solved instances over time. `groups`: {title: {line: rows}}, one panel each."""
+    """Plots the number of solved instances over time, one panel per title. `groups`: {title: {line: rows}}."""
     with matplotlib.rc_context(SETTINGS):
         limits = [line.time_limit_s for line in lines]
         first = first_time([row for group in groups.values() for rows in group.values()
@@ -372,8 +378,8 @@ def cactus(groups, lines, looks, per_row=2):
 
 
 def _omega_labels(family, lines, looks):
-    """Returns the labels of a study: for the family only omega, if that is unique and all its lines have one method or
-    longer labels would not fit; otherwise omega and the name."""
+    """Returns the labels of a study. A label of the family is only its omega if omegas are unique and either all lines
+    have one method or longer labels would not fit; otherwise it is omega and the name."""
     labels = [omega_text(line.omega) for line in family]
     longer = [f"{omega_text(line.omega)}: {looks.name(line)}" for line in lines]
     longer = [label if len(label) <= 32 else label[:30] + "..." for label in longer]
@@ -384,9 +390,11 @@ def _omega_labels(family, lines, looks):
 
 
 def omega_study(cells, family, lines, looks, setting):
-    """Plots the influence of omega like the paper's Fig. 6. Panel (a) is the legend and the setting, panel (g) SQR on
-    common instances. `cells`: those of one map and N. `lines`: those of the family, then others. `setting`: lines of
-    text."""
+    """Plots the influence of omega like the paper's Fig. 6.
+
+    Panel (a) has the legend and the setting, panel (g) SQR on common instances. cells: the cells of one map and N.
+    lines: the lines of the family, then others. setting: lines of text.
+    """
     with matplotlib.rc_context(SETTINGS):
         caption = wrapped([SQR_CAPTION])
         labels = _omega_labels(family, lines, looks)
@@ -418,7 +426,7 @@ def omega_study(cells, family, lines, looks, setting):
 
 
 def _plot_shares(ax, place, numbers, colours):
-    """Draws a bar at y = `place`, divided into shares. `numbers`: {kind: number}."""
+    """Draws a bar at y = `place`, divided into the shares of the kinds. `numbers`: {kind: number}."""
     left = 0.0
     for kind, colour in colours.items():
         share = 100 * numbers.get(kind, 0) / sum(numbers.values())

@@ -4,7 +4,7 @@ from collections import defaultdict
 
 
 def grouped(items, key):
-    """Returns {key of an item: all items that have it}, in the order of `items`."""
+    """Returns {key: all items with this key}; keys and items are in the order of `items`."""
     groups = defaultdict(list)
     for item in items:
         groups[key(item)].append(item)
@@ -12,5 +12,5 @@ def grouped(items, key):
 
 
 def values_by(items, key, value):
-    """Returns {key of an item: the distinct values of all items that have it}."""
+    """Returns {key: set of the values of all items with this key}."""
     return {key: set(map(value, group)) for key, group in grouped(items, key).items()}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Lines of figures and tables: each line is one method with one omega and one time limit."""
+"""Defines the lines of figures and tables. A line is one method with one omega and one time limit."""
 import re
 import shlex
 from collections import defaultdict
@@ -39,12 +39,12 @@ def seconds_text(seconds):
 
 
 class Lines:
-    """All lines of the rows, with their labels and one order for all figures and tables."""
+    """All lines of the rows, with their labels, in the same order for all figures and tables."""
 
     def __init__(self, rows, baselines):
         self.baselines = frozenset(baselines)
-        # The lines of the first comparison (MG-MAPF) come first, so that they get the most distinct colours.
-        # The others follow, ordered by method.
+        # The lines of the first comparison (MG-MAPF) come first, so that they get the most distinct colours. The other
+        # lines follow, ordered by method.
         shown_first = {line_of(row) for row in rows if row.problem == "mg"}
         found = {line_of(row) for row in rows}
         self.all = sorted(found, key=lambda line: (
@@ -63,18 +63,18 @@ class Lines:
         return self._index[line]
 
     def name(self, line):
-        """Returns the label without omega, for places that show omega separately."""
+        """Returns the label without omega, for figures and tables that show omega separately."""
         return self._called(line, False)
 
     def label(self, line):
-        """Returns the method; its omega, if any two rows of one problem differ in omega, because a larger omega
-        leaves less to prove; and its time limit, if the method has several."""
+        """Returns the label: the method, its omega if rows of one problem differ in omega, and its time limit if the
+        method has several. Omegas must be visible then, because a larger omega leaves less to prove."""
         return self._called(line, self._omegas_differ)
 
     def _called(self, line, with_omega):
         name = method_name(line.method)
         parts = [line.method if name in self._methods else name]
-        if with_omega and line.omega:  # other solvers have none
+        if with_omega and line.omega:  # methods of other solvers have no omega
             parts.append(omega_text(line.omega))
         if len(self._limits[line.method, line.omega]) > 1:
             parts.append(f"limit {seconds_text(line.time_limit_s)}")
@@ -84,7 +84,7 @@ class Lines:
 class Family(NamedTuple):
     """Lines that differ only in omega."""
     name: str
-    lines: list  # by omega
+    lines: list  # in ascending order of omega
 
 
 def _without_omega(options):
@@ -105,7 +105,7 @@ def _without_omega(options):
 
 
 def _bare(method, omega):
-    """Returns a method's name without its omega at the end: cts-cbs for cts-cbs-w0.01."""
+    """Returns a method's name without omega at its end: "cts-cbs" for "cts-cbs-w0.01"."""
     end = re.search(r"[\s,_-]+(?:w|ω|omega)?\s*=?\s*" + re.escape(omega) + "$", method)
     return method[:end.start()] if omega and end and end.start() else method
 
@@ -116,8 +116,11 @@ def _name(lines):
 
 
 def families(rows, methods=None):
-    """Returns families of lines with at least two omegas. The lines of a family differ only in omega, in their
-    options or, without options, in their names. If `methods` is given, its lines are one family per time limit."""
+    """Returns the families that have at least two omegas.
+
+    The options of the lines in a family (without options, their names) differ only in omega. If `methods` is given,
+    the lines of these methods form one family per time limit instead.
+    """
     groups = defaultdict(set)
     for row in rows:
         if methods is None:

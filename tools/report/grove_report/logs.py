@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Reads logs of single runs (`grove solve --log-format jsonl`): lower bound and best plan over time.
+"""Reads lower bound and plan cost over time from logs of single runs (`grove solve --log-format jsonl`).
 
-The first line distinguishes a log from results, so that a folder may hold both.
+The first line of a file distinguishes a log from results, so a folder can contain both.
 """
 import json
 from pathlib import Path
@@ -11,9 +11,9 @@ from .rows import BadInput, printable, results_in
 
 
 class Moment(NamedTuple):
-    """State of a run from this time on."""
+    """State of a run from this time until the next Moment."""
     seconds: float
-    cost: Optional[int]  # of its best plan
+    cost: Optional[int]  # cost of the best plan so far
     bound: Optional[int]
 
 
@@ -22,9 +22,9 @@ class Run(NamedTuple):
     instance: str    # as the log names it
     agents: Optional[int]
     options: str
-    status: str      # "" if the log ends before the run
+    status: str      # "" if the log has no end of the run
     end_s: float
-    moments: list    # by time; each differs from the one before
+    moments: list    # Moments in order of time; each differs from the previous one
 
 
 def _first_line(path):
@@ -41,7 +41,7 @@ def is_log(path):
 
 
 def parted(arguments):
-    """Returns (arguments that are or hold results, paths of logs). A folder stands for its results and its logs."""
+    """Divides the arguments into (files and folders with results, paths of logs). A folder can contribute to both."""
     results, logs = [], []
     for argument in arguments:
         path = Path(argument)
@@ -72,7 +72,7 @@ def _moment(event, place):
 
 
 def _last(event, place):
-    """Returns (the Moment of a summary, its status)."""
+    """Returns (Moment, status) of the summary at the end of a log."""
     stats = event.get("stats") if isinstance(event.get("stats"), dict) else {}
     found = {"time_s": stats.get("wall_s"), "incumbent": event.get("cost"), "lower_bound": event.get("lower_bound")}
     status = event.get("status")
@@ -88,7 +88,7 @@ def _without_repeats(moments):
 
 
 def _events(path):
-    """Yields (place, event) of each line. Skips a last line that is cut off."""
+    """Yields (place, event) for each line of a log. Skips an incomplete last line."""
     try:
         lines = path.read_text(encoding="utf-8").split("\n")
     except UnicodeDecodeError as error:
@@ -116,7 +116,7 @@ def _text_of(header, key):
 
 
 def read_log(path):
-    """Reads one log. Raises BadInput with file, line and what was expected."""
+    """Reads one log and returns its Run. Raises BadInput, which names file, line and what was expected."""
     header, moments, status, end = {}, [], "", 0.0
     for place, event in _events(path):
         if event.get("event") == "header":

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Computes the measures of a set of rows of one line: success, runtime, SQR, PAR-2, ...
+"""Computes measures for the rows of one line: success, runtime, SQR, PAR-2, ...
 
-Rows that differ only in the seed are repetitions of an instance. Means are taken over these first, then over
-instances.
+Rows that differ only in the seed are repetitions of an instance. A mean is first taken over the repetitions of each
+instance and then over the instances.
 """
 import functools
 import statistics
@@ -15,7 +15,7 @@ from .lines import line_of
 from .rows import CLAIMED, INVALID
 
 
-NO_PROMISE = ("", "inf")  # omegas without a guarantee
+NO_PROMISE = ("", "inf")  # values of omega that guarantee nothing
 
 
 @functools.cache
@@ -24,9 +24,11 @@ def _factor(omega):
 
 
 def within_omega(row):
-    """Returns whether a row with a plan proves that its cost is at most (1 + omega) times a lower bound. Returns None
-    if its omega guarantees nothing. Compares cost and bound if the row has both. Otherwise the status decides; it is
-    second choice because a method may refer to another bound."""
+    """Returns whether a row with a plan proves that its cost is at most (1 + omega) times the lower bound.
+
+    Returns None if its omega guarantees nothing. Compares cost and bound if the row has both. Otherwise the status
+    decides; it is the second choice, because the status of a method can refer to a different bound.
+    """
     if row.omega in NO_PROMISE:
         return None
     if row.status == "optimal":
@@ -42,8 +44,11 @@ def has_plan(row):
 
 
 def best_costs(rows, known=()):
-    """Returns {(problem, instance): least cost of any checked plan}. This includes runs that ended at a limit, but not
-    runs with an error, whose plans may be invalid. `known`: {(problem, instance): cost} from other sources."""
+    """Returns {(problem, instance): least cost of any checked plan}.
+
+    Includes runs that ended at a limit, but not runs with an error, because their plans may be invalid. known:
+    {(problem, instance): cost} from other sources.
+    """
     best = dict(known)
     for row in filter(has_plan, rows):
         key = row.problem, row.instance
@@ -52,7 +57,7 @@ def best_costs(rows, known=()):
 
 
 def best_bounds(rows, known=()):
-    """Returns {(problem, instance): highest proven lower bound}, without bounds that other solvers only claim."""
+    """Returns {(problem, instance): highest proven lower bound}, without bounds that other solvers merely claim."""
     best = dict(known)
     for row in rows:
         if row.lower_bound is not None and row.status not in ("error", "infeasible") and row.bounds_every_plan:
@@ -62,7 +67,7 @@ def best_bounds(rows, known=()):
 
 
 def cost_ratio(row, best):
-    """Returns cost / best known cost, which is at least 1. Returns None if only the best known cost is 0."""
+    """Returns cost / best known cost, which is >= 1. Returns None if the best known cost is 0 and the cost is not."""
     least = best[row.problem, row.instance]
     if row.cost == least:
         return 1.0
@@ -70,39 +75,39 @@ def cost_ratio(row, best):
 
 
 class Measures(NamedTuple):
-    """Measures of the rows of one line; None: no row has the value."""
+    """Measures of the rows of one line. A value is None if no row provides it."""
     instances: int
     seeds: int                     # maximum number of runs of an instance
     runs: int
     solved: int
-    invalid: int                   # runs with an invalid plan
-    claimed: int                   # runs that report a cost without a plan
+    invalid: int                   # number of runs with an invalid plan
+    claimed: int                   # number of runs that report a plan but wrote none
     within_omega: Optional[int]    # number of solved runs within omega; None: omega guarantees nothing
-    success: float                 # share of an instance's runs that are solved, mean over instances
+    success: float                 # mean over instances of the share of solved runs
     mean_runtime_s: float          # a failure counts as the time limit
     median_runtime_s: float        # a failure counts as the time limit
-    par2_s: float                  # a failure counts as twice the time limit
-    mean_sqr: Optional[float]      # over solved rows
-    mean_cost_ratio: Optional[float]  # over solved rows; cost / best known cost
+    par2_s: float                  # mean; a failure counts as twice the time limit
+    mean_sqr: Optional[float]      # mean SQR over solved rows
+    mean_cost_ratio: Optional[float]  # mean of cost / best known cost over solved rows
     common: int                    # number of common_instances()
-    common_sqr: Optional[float]    # mean SQR over these
-    common_cost_ratio: Optional[float]  # mean over these; cost / best known cost
+    common_sqr: Optional[float]    # mean SQR over the common instances
+    common_cost_ratio: Optional[float]  # mean of cost / best known cost over the common instances
     common_mean_cost: Optional[float]
     common_median_cost: Optional[float]
     common_mean_s: Optional[float]
     common_median_s: Optional[float]
-    mean_roots: Optional[float]    # over all rows with a value
+    mean_roots: Optional[float]    # mean over all rows with a value
     mean_rtsp_calls: Optional[float]
 
 
 def over_seeds(rows, value):
-    """Returns the mean of value(row) over the rows of each instance, without instances that have no value."""
+    """Returns, for each instance, the mean of value(row) over its rows. Omits instances without a value."""
     values = defaultdict(list)
     for row in rows:
         found = value(row)
         if found is not None:
             values[row.instance].append(found)
-    # Not fmean, which takes ten times as long for the single value that most instances have.
+    # Avoids fmean for a single value, the usual case, because it takes ten times as long.
     return [found[0] if len(found) == 1 else statistics.fmean(found) for found in values.values()]
 
 
@@ -115,20 +120,24 @@ def _median(values):
 
 
 def always_solved(rows):
-    """Returns the instances of which every run is solved."""
+    """Returns the instances for which every run is solved."""
     return {row.instance for row in rows} - {row.instance for row in rows if not row.solved}
 
 
 def common_instances(groups):
-    """Returns the instances that are solved, with every seed, by all lines that solve any instance. Returns the empty
-    set if fewer than two lines solve any. `groups`: {line: rows}."""
+    """Returns the instances that all lines solve with every seed, without lines that solve no instance.
+
+    Returns the empty set if fewer than two lines solve any instance. groups: {line: rows}.
+    """
     solved = [always_solved(rows) for rows in groups.values() if any(row.solved for row in rows)]
     return set.intersection(*solved) if len(solved) > 1 else set()
 
 
 def measures(rows, best, common=frozenset()):
-    """Returns the Measures of `rows`, at least one row of one line. `best`: best_costs() of all rows. `common`:
-    common_instances() of the rows of all lines."""
+    """Returns the Measures of `rows`, which has at least one row, all of one line.
+
+    best: best_costs() of all rows. common: common_instances() of the rows of all lines.
+    """
     solved = [row for row in rows if row.solved]
     shared = [row for row in solved if row.instance in common]
     runs = Counter(row.instance for row in rows)
@@ -159,26 +168,28 @@ class Cell(NamedTuple):
 
 
 def by_cell(rows, best):
-    """Returns {cell: {line: Measures}}, without lines that have no rows in a cell. `best`: as in measures()."""
+    """Returns {cell: {line: Measures}} for the lines that have rows in the cell. `best`: see measures()."""
     groups = grouped(rows, lambda row: Cell(row.map, row.agents, row.tasks))
     return {cell: measures_by_line(group, best) for cell, group in sorted(groups.items())}
 
 
 def measures_by_line(rows, best):
-    """Returns {line: Measures}, ordered by line. `best`: as in measures()."""
+    """Returns {line: Measures}, ordered by line. `best`: see measures()."""
     groups = by_line(rows)
     common = common_instances(groups)
     return {line: measures(group, best, common) for line, group in sorted(groups.items())}
 
 
 def by_line(rows):
-    """Returns {line: its rows}."""
+    """Returns {line: rows of the line}."""
     return grouped(rows, line_of)
 
 
 def median_runs(rows):
-    """Returns {instance: {line: row}} with the median run of those that differ only in the seed. A failure counts as
-    slower than any success; of an even number of runs the faster of the two middle ones is the median."""
+    """Returns {instance: {line: row}}, where the row is the median by runtime of the runs that differ only in the seed.
+
+    A failure counts as slower than any success. For an even number of runs, the faster of the two middle runs counts.
+    """
     groups = defaultdict(lambda: defaultdict(list))
     for row in rows:
         groups[row.instance][line_of(row)].append(row)
@@ -188,13 +199,15 @@ def median_runs(rows):
 
 
 def solved_over_time(rows):
-    """Returns the runtimes of the solved rows in ascending order: at the k-th runtime, k rows are solved."""
+    """Returns the runtimes of the solved rows in ascending order, so that k rows are solved by the k-th runtime."""
     return sorted(row.runtime_s for row in rows if row.solved)
 
 
 def only_solver(runs):
-    """Returns {line: [rows of instances that only its method solves, of those that other methods tried]}. `runs`:
-    median_runs()."""
+    """Returns {line: [rows of instances that other methods tried but only the line's method solves]}.
+
+    runs: median_runs().
+    """
     found = defaultdict(list)
     for lines in runs.values():
         solvers = [line for line, row in lines.items() if row.solved]
@@ -205,7 +218,7 @@ def only_solver(runs):
 
 
 def beyond_baselines(runs, is_baseline):
-    """Returns {line: number of instances that it solves, that a baseline tried, and that no baseline solved}."""
+    """Returns {line: number of instances that the line solves and that baselines tried but none solved}."""
     found = defaultdict(int)
     for lines in runs.values():
         tried = [row.solved for line, row in lines.items() if is_baseline(line)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Writes the HTML page: one file without scripts, which loads nothing from elsewhere."""
+"""Writes the HTML page of a report as a single file without scripts and external resources."""
 import base64
 import html
 from collections import Counter
@@ -15,7 +15,7 @@ from .rows import STATUSES_WITH_PLAN
 from .speedup import ALL_MAPS, BEST
 from .tables import NOTHING, Entry, count, html_table, percent, ratio, seconds, word
 
-# Content security policy that blocks everything that is not in the file.
+# Content security policy that blocks everything from outside the file.
 POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 MOST_LISTED = 100
 
@@ -78,12 +78,12 @@ def _data(kind, content):
 
 
 def _file(report, before, name):
-    """Returns a download link. The page contains the file, so that the page may be moved to another directory."""
+    """Returns a download link. The page contains the file itself, so that the page can be moved without it."""
     return f'<p>{_text(before)}: <a download="{name}" href="{_data("text/csv", report.files[name])}">{name}</a>.</p>'
 
 
 def _figure(figure, caption="", kind=""):
-    """Returns a figure. `kind`: "column" for figures as wide as a column of a paper."""
+    """Returns the HTML of a figure. `kind`: "column" for figures as wide as a column of a paper, otherwise ""."""
     return (f'<figure class="{kind}"><img alt="{_text(figure.title)}" src="{_data("image/svg+xml", figure.svg.encode("utf-8"))}">'
             f"<figcaption><b>{_text(figure.title)}.</b> {_text(caption)}</figcaption></figure>")
 
@@ -184,7 +184,7 @@ def _methods(report):
 
 
 def _within(line, found):
-    """Returns the number of solved runs of a line that are within omega. `found`: Measures of the line."""
+    """Returns the Entry with the number of solved runs of a line within omega. `found`: Measures of the line."""
     if found.within_omega is None:
         return Entry("–", f"{omega_text(line.omega)}: no guarantee")
     return Entry(str(found.within_omega))
@@ -240,7 +240,7 @@ def _summary(problem, lines):
 
 
 def _matrix(problem, lines, value, show, better):
-    """Returns a table with rows by map, N, M and a column for each line; the best value of a row is bold."""
+    """Returns a table with a row for each map, N and M and a column for each line. The best value in a row is bold."""
     rows = []
     for cell, found in problem.cells.items():
         values = {line: value(measured) for line, measured in found.items()}
@@ -503,7 +503,7 @@ def _flag(value):
 
 
 def _best_known(report):
-    """Returns the section that compares the rows with MAPF Tracker."""
+    """Returns the section that compares the rows with the best known values of MAPF Tracker."""
     known = report.best_known
     if known is None:
         return []
@@ -542,7 +542,7 @@ def _best_known(report):
 
 
 def _runs(report):
-    """Returns the section of single runs, from their logs."""
+    """Returns the section on single runs, from their logs."""
     if not report.runs:
         return []
     rows = [[word(run.name), word(run.instance), Entry("–" if run.agents is None else str(run.agents)),

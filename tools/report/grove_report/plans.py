@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Reads plans of classical MAPF from the plan files that grove bench kept.
+"""Reads plans of classical MAPF from the plan files that `grove bench --keep-plans` kept.
 
-grove bench has checked these plans; its verdict is in the row. Here a file only has to be a sequence of moves.
+`grove bench` has already checked the plans, and the rows have its verdict. This module only requires that a file has
+sequences of moves.
 """
 import json
 import re
@@ -10,7 +11,7 @@ LETTERS = {(1, 0): "r", (-1, 0): "l", (0, -1): "u", (0, 1): "d", (0, 0): "w"}
 
 
 class BadPlan(Exception):
-    """The reason why a file holds no valid plan, in one line."""
+    """A file has no usable plan. The text is the reason, in one line."""
 
 
 def _paths(text):
@@ -29,7 +30,7 @@ def _until_rest(path):
 
 
 def _step(before, after):
-    """Returns the move (dx, dy) from one cell to the next. Returns None if these are not cells."""
+    """Returns the move (dx, dy) from one cell to the next. Returns None if the arguments are not cells."""
     try:
         (x, y), (to_x, to_y) = before, after
         return to_x - x, to_y - y
@@ -38,7 +39,7 @@ def _step(before, after):
 
 
 def read_plan(path, agents):
-    """Returns the path of each agent: its cells (x, y) at times 0, 1, ... until it rests. Raises BadPlan."""
+    """Returns the path of each agent as its cells (x, y) at times 0, 1, ... until it rests. Raises BadPlan."""
     try:
         paths = _paths(path.read_text(encoding="utf-8"))
     except OSError as error:
@@ -56,11 +57,11 @@ def read_plan(path, agents):
 
 
 def cost_of(paths):
-    """Returns the sum of the times at which agents come to rest."""
+    """Returns the cost of a plan, which is the sum of the times at which the agents come to rest."""
     return sum(len(path) - 1 for path in paths)
 
 
 def motion_string(path):
-    """Returns the moves with run lengths: "5r2d" is five steps right, then two down. Up means smaller y."""
+    """Returns the moves in run-length encoding: "5r2d" is five moves right, then two down. Up means smaller y."""
     letters = "".join(LETTERS[_step(before, after)] for before, after in zip(path, path[1:]))
     return re.sub(r"(.)\1+", lambda run: f"{len(run[0])}{run[1]}", letters)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Finds claims that contradict each other, and claims of other solvers that a checked plan or bound refutes.
 
-A contradiction is a bug in some solver, or comes from rows of different instances under one name.
+The cause of a contradiction is an error in a solver, or rows of different instances with the same name.
 """
 import itertools
 from typing import NamedTuple, Optional
@@ -19,7 +19,7 @@ class Contradiction(NamedTuple):
 
 
 def _said(rows, value):
-    """Returns the values with the methods that claim them: '1070 (a, b), 1071 (c)'."""
+    """Returns the values and the methods that claim them as text, such as '1070 (a, b), 1071 (c)'."""
     groups = values_by(rows, value, lambda row: method_name(row.method) + (f" ω={row.omega}" if row.omega else ""))
     return ", ".join(f"{found} ({', '.join(sorted(who))})" for found, who in sorted(groups.items()))
 
@@ -60,12 +60,12 @@ class FalseClaim(NamedTuple):
     seed: Optional[int]
     kind: str             # "plan", "cost", "lower bound"
     claimed: Optional[int]
-    checked: Optional[int]  # the value that refutes it
+    checked: Optional[int]  # the checked value that refutes the claim
     what: str
 
 
 class _Checked(NamedTuple):
-    """Best checked plan and bound of an instance; None: there is none."""
+    """Best checked plan and best proven bound of an instance. None: there is none."""
     plan: Optional[int]   # cost of the cheapest plan
     bound: Optional[int]  # highest proven lower bound
     planner: str          # methods that found the plan
@@ -80,7 +80,7 @@ def _checked(rows, plan, bound):
 
 
 def _false_claims_of(row, checked):
-    """Yields (kind, claimed, checked, what) of each claim of a row that the checked plan or bound refutes."""
+    """Yields (kind, claimed, checked, what) for each claim of a row that the checked plan or bound refutes."""
     plan, bound = checked.plan, checked.bound
     if row.status == INVALID:
         yield "plan", row.claimed_cost, None, row.error or "the plan is invalid"
@@ -102,7 +102,7 @@ def _false_claims_of(row, checked):
 
 
 def false_claims(rows, known_costs=()):
-    """Returns the FalseClaims of all rows. `known_costs`: costs of other known plans, as in best_costs()."""
+    """Returns the FalseClaims among all rows. `known_costs`: costs of further known plans, see best_costs()."""
     rows = [row for row in rows if row.status != "error"]
     plans, bounds = best_costs(rows, known_costs), best_bounds(rows)
     return [FalseClaim(*key, row.method, row.omega, row.seed, *claim)
@@ -112,7 +112,7 @@ def false_claims(rows, known_costs=()):
 
 
 def _against(rows, known):
-    """Yields contradictions between the rows of an instance and the entry of MAPF Tracker."""
+    """Yields the contradictions between the rows of an instance and its entry in MAPF Tracker."""
     plans = [row for row in rows if has_plan(row)]
     if plans and known.bound is not None and min(row.cost for row in plans) < known.bound:
         cheaper = [row for row in plans if row.cost < known.bound]
@@ -125,16 +125,18 @@ def _against(rows, known):
 
 
 def contradictions(rows, known=None):
-    """Returns the Contradictions among all rows, except rows with status error, whose claims do not count. Bounds
-    that hold only for plans without following conflicts (--no-following) are not compared.
-    `known`: {(problem, instance): tracker.Known}."""
+    """Returns the Contradictions among all rows.
+
+    Ignores the claims of rows with status "error", and bounds that hold only for plans without following conflicts
+    (--no-following). known: {(problem, instance): tracker.Known}.
+    """
     groups = grouped((row for row in rows if row.status != "error"), lambda row: (row.problem, row.instance))
     return [Contradiction(*key, what) for key, group in sorted(groups.items())
             for what in itertools.chain(_of_instance(group), _against(group, known[key]) if key in (known or {}) else ())]
 
 
 def optimal_agreements(rows):
-    """Returns the number of instances that have an optimal cost from at least two methods."""
+    """Returns the number of instances for which at least two methods prove an optimal cost."""
     optimal = (row for row in rows if row.status == "optimal" and row.cost is not None)
     methods = values_by(optimal, lambda row: (row.problem, row.instance), lambda row: row.method)
     return sum(len(found) > 1 for found in methods.values())

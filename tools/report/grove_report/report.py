@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Builds a report: tables and figures of each problem, the study of omega, and notes."""
+"""Builds a report: tables and figures for each problem, the study of omega, and notes."""
 import itertools
 import re
 from collections import Counter
@@ -19,9 +19,9 @@ PROBLEM_NAMES = {"mg": "MG-MAPF (agents without destinations)",
                  "cts": "CTS-MAPF (agents with tasks and destinations)",
                  "mixed": "mixed (some agents with a destination, some without)",
                  "mapf": "classical MAPF (destinations, no tasks)"}
-# Maximum number of columns of a comparison that are readable side by side on a narrow page.
+# Maximum number of columns of a comparison that are readable side by side on a narrow screen.
 WIDEST = 3
-# Files of a report: make_report() removes those of an earlier report from the directory.
+# Names of the files of a report. make_report() removes such files of an earlier report from the directory.
 OWN_FILE = re.compile(rf"((summary|comparison|success|anytime|common|cactus|splits|search|speedup|only_solver)_"
                       rf"({'|'.join(PROBLEMS)})|omega_study|runs)(_[0-9]+)?\.(svg|png|csv)"
                       r"|(contradictions|false_claims|best_known)\.csv")
@@ -49,7 +49,7 @@ class Problem(NamedTuple):
     cactus: Figure
     success: object     # Figure; None: no map has several numbers of agents
     anytime: object     # Figure; None: no line is anytime
-    panels: list        # of the figure `anytime`
+    panels: list        # Panels of the figure `anytime`
     counters: dict      # {line: Counters}
     splits: object      # Figure; None: no run reports splits
 
@@ -57,11 +57,11 @@ class Problem(NamedTuple):
 class Study(NamedTuple):
     """Study of one family of lines that differ only in omega."""
     problem: str
-    family: object
-    lines: list         # those of the family, then Grove's own search for comparison
+    family: object      # Family
+    lines: list         # lines of the family, then of Grove's own search for comparison
     map: str            # map of the figure
-    agents: int
-    cells: dict         # cells of all maps and numbers of agents
+    agents: int         # number of agents in the figure
+    cells: dict         # {cell: {line: Measures}} for all maps and numbers of agents
     figure: Figure
 
 
@@ -82,7 +82,7 @@ class Report(NamedTuple):
     best_known: object  # BestKnown; None: not requested
     runs: object        # Figure of the logs; None: no logs
     logs: list
-    agreements: int     # instances with an optimal cost from several methods
+    agreements: int     # number of instances with a proven optimum from several methods
     errors: list        # (line, number of errors, most frequent message)
     notes: list         # texts
     files: dict         # {name: bytes}, as written to the directory
@@ -101,7 +101,7 @@ class Looks:
 
 
 class Output:
-    """Output directory of a report; writes files and keeps their contents."""
+    """Output directory of a report. Writes files and keeps their contents for the page."""
 
     def __init__(self, folder):
         self.folder = Path(folder)
@@ -121,14 +121,14 @@ class Output:
         self.files[name] = content
 
     def remove_others(self):
-        """Removes files of an earlier report that this one did not write, for instance those of other problems."""
+        """Removes files of an earlier report that this report did not write, such as those for other problems."""
         for path in self.folder.iterdir():
             if path.name not in self.files and OWN_FILE.fullmatch(path.name):
                 path.unlink()
 
 
 def _parts(cells):
-    """Returns groups of cells whose columns fit side by side; a map that fits into one group is not divided."""
+    """Divides the cells into groups whose columns fit side by side. Does not divide a map that fits into one group."""
     columns = figures.columns_of(cells)
     parts = [[]]
     for _, group in itertools.groupby(columns.keys, key=lambda key: key[0]):
@@ -169,8 +169,10 @@ def _splits_figure(output, problem, counters, lines, looks):
 
 
 def _success_figure(output, problem, rows, best, lines, looks):
-    """Makes the figure and table of success rates by map and number of agents, over all numbers of tasks. Returns None
-    if no map has several numbers of agents."""
+    """Makes the figure and table of success rates by map and number of agents, over all numbers of tasks.
+
+    Returns None if no map has several numbers of agents.
+    """
     groups = {name: {agents: metrics.measures_by_line(found, best) for agents, found in sorted(
                      grouped(group, lambda row: row.agents).items())}
               for name, group in sorted(grouped(rows, lambda row: row.map).items())}
@@ -264,7 +266,7 @@ def _write_tables(output, problem, lines):
 
 
 def _shown_cell(cells, wanted_map, wanted_agents):
-    """Returns map and N of the figure of a study: by default the paper's room map and N = 5, if the data has them."""
+    """Returns map and N for the figure of a study, by default the paper's room map and N = 5 if the data has them."""
     maps = sorted({cell.map for cell in cells})
     name = wanted_map or next((name for name in maps if name.startswith("room")), maps[0])
     sizes = sorted({cell.agents for cell in cells if cell.map == name})
@@ -282,8 +284,10 @@ def _setting(problem, family, map_name, agents, rows):
 
 
 def _studies(output, rows_of, best, looks, options):
-    """Returns the Studies of the first problem that has lines which differ only in omega, CTS-MAPF first as in the
-    paper. Classical MAPF is not studied, because the x axis is the number of tasks."""
+    """Returns the Studies of the first problem that has lines which differ only in omega.
+
+    CTS-MAPF comes first, as in the paper. Classical MAPF is excluded, because the x axis is the number of tasks.
+    """
     for name in ("cts", "mg", "mixed"):
         rows = rows_of.get(name, [])
         found = families(rows, options.study_methods)
@@ -300,7 +304,7 @@ def _studies(output, rows_of, best, looks, options):
 
 
 def _beside(family, rows):
-    """Returns the lines of Grove's own search that are not in the family, for comparison."""
+    """Returns the lines of Grove's own search with the family's time limits that are not in the family."""
     limits = {line.time_limit_s for line in family.lines}
     found = {line_of(row) for row in rows if method_name(row.method) == GROVE and row.time_limit_s in limits}
     return sorted(found - set(family.lines))
@@ -338,7 +342,7 @@ def _listed(values, most=6, between=", "):
 
 
 def _omegas(problem, lines):
-    """Yields 'ω = 0: a, b; ω = 0.01: c' if omegas differ."""
+    """Yields a note such as 'ω = 0: a, b; ω = 0.01: c' if the lines of a problem differ in omega."""
     methods = grouped(problem.lines, lambda line: line.omega)
     if len(methods) > 1:
         yield "; ".join(f"{omega_text(omega)}: {_listed(map(lines.name, methods[omega]))}"
@@ -346,7 +350,7 @@ def _omegas(problem, lines):
 
 
 def _guarantee(line, solved, lines):
-    """Yields notes on solved rows of a line that do not prove what omega asks, or have no guarantee."""
+    """Yields notes on solved rows of a line that do not prove the tolerance omega, or have no guarantee."""
     outside = [row for row in solved if metrics.within_omega(row) is False]
     unproven = [row for row in solved if not row.solver and line.omega in metrics.NO_PROMISE and row.status != "optimal"]
     statuses = "status " + ", ".join(sorted({row.status for row in outside or unproven}))
@@ -359,7 +363,7 @@ def _guarantee(line, solved, lines):
 
 
 def _notes(results, rows, lines, problems):
-    """Yields what a reader must know before comparing figures."""
+    """Yields the notes that a reader needs before comparing methods."""
     for problem in problems:
         for omegas in _omegas(problem, lines):
             yield (f"{PROBLEM_NAMES[problem.name].split(' (')[0]}: methods with different ω are compared "
@@ -435,7 +439,7 @@ def _runs_figure(output, logs):
     named = {run.instance for run in logs}
     short = {name: Path(name).name for name in named} if len({Path(name).name for name in named}) == len(named) \
         else {name: name for name in named}
-    # An instance of a scenario is its first N rows, so N belongs to the title.
+    # An instance from a scenario is its first N rows, so the title needs N.
     groups = grouped(logs, lambda run: short[run.instance]
                      + (f", N = {run.agents}" if run.instance.endswith(".scen") else ""))
     output.table("runs", ["log", "instance", "agents", "options", "status", "time_s", "cost", "lower_bound"],
@@ -461,15 +465,15 @@ def _best_known(output, rows, options):
 class Options(NamedTuple):
     baselines: tuple
     problems: tuple           # problems to report; empty: all in the results
-    study_methods: object     # None: lines whose options differ only in omega
-    study_map: object         # None: a room map
-    study_agents: object      # None: 5, else the smallest number
+    study_methods: object     # methods of the study; None: lines whose options differ only in omega
+    study_map: object         # None: a room map if there is one, otherwise the first map
+    study_agents: object      # None: 5 if available, otherwise the smallest number
     known_files: tuple = ()   # downloads of MAPF Tracker
     known: object = None      # {Place: Known} of these files
 
 
 def make_report(results, logs, options, folder):
-    """Writes all figures and tables into `folder`, removes those of an earlier report, and returns the Report."""
+    """Writes all figures and tables to `folder`, removes files of an earlier report, and returns the Report."""
     everything = [row for row in results.rows if not options.problems or row.problem in options.problems]
     rows = [row for row in everything if row.status != UNSUPPORTED]
     lines = Lines(rows, options.baselines)

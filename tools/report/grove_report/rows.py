@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Reads results: CSV or JSON lines of `grove bench`, `grove-mpi batch` or experiments.py, or directories that hold
-them."""
+"""Reads results of `grove bench`, `grove-mpi batch` or experiments.py: CSV files, JSON lines, or their directories."""
 import csv
 import json
 import math
@@ -10,12 +9,12 @@ from typing import NamedTuple, Optional
 from .tables import text_of_cell
 
 PROBLEMS = ("mg", "cts", "mixed", "mapf")
-INVALID, CLAIMED, UNSUPPORTED = "invalid", "claimed", "unsupported"  # other solvers: invalid plan; cost without plan
+INVALID, CLAIMED, UNSUPPORTED = "invalid", "claimed", "unsupported"  # invalid plan; claim without plan; not supported
 STATUSES = ("optimal", "bounded", "feasible", "infeasible", "unknown", "error", INVALID, CLAIMED, UNSUPPORTED)
 STATUSES_WITH_PLAN = ("optimal", "bounded", "feasible")
 
 
-# Counters in tables of before 0.1, and their present names.
+# Names of counters in tables from before version 0.1, and their current names.
 RENAMED_COUNTERS = {
     "batches": "node_batches", "facts_sent": "learned_bounds_sent", "gain_configurations": "gain_lacam",
     "gain_neighborhood": "gain_lns", "gain_priorities": "gain_prioritized", "helps": "assists",
@@ -30,18 +29,18 @@ RENAMED_COUNTERS = {
 
 
 class BadInput(Exception):
-    """An error of the input in one line: file, place, what is wrong, what was expected."""
+    """An error in the input. The text is one line: file, place, what is wrong, what was expected."""
 
 
 class Point(NamedTuple):
-    """A plan during the run, as the run reports it."""
+    """A plan found during a run, as the run reports it."""
     seconds: float
     cost: int
     lower_bound: Optional[int]
 
 
 class Row(NamedTuple):
-    """One run of one method on one instance. Seconds, steps, MB; None: absent."""
+    """One run of one method on one instance. Times are in seconds, costs in time steps, memory in MB. None: absent."""
     instance: str
     method: str
     options: str
@@ -60,7 +59,7 @@ class Row(NamedTuple):
     gap: Optional[float]
     root_cost: Optional[int]
     sqr: Optional[float]
-    runtime_s: float  # the time limit if not solved
+    runtime_s: float  # the time limit if the run is not solved
     wall_s: Optional[float]
     roots: Optional[int]
     rtsp_calls: Optional[int]
@@ -73,16 +72,16 @@ class Row(NamedTuple):
     error: str
     ranks: Optional[int]
     threads: Optional[int]
-    instance_digest: str  # of the instance files, because two instances may have one id
-    counts: dict  # {name: number}: other counters of the search; empty: none reported
+    instance_digest: str  # digest of the instance files, because different instances can have the same id
+    counts: dict  # {name: number} for the other counters of the search; empty if the run reports none
     first_plan_s: Optional[float]
-    plan_file: str  # path relative to the working directory; "": none was kept
-    solver: str     # adapter of an external solver; "": Grove itself
-    claimed_cost: Optional[int]  # claims of an external solver, unchecked
+    plan_file: str  # path relative to the working directory; "" if no plan was kept
+    solver: str     # adapter of an external solver; "" for Grove
+    claimed_cost: Optional[int]  # claimed_...: unchecked claims of an external solver
     claimed_lower_bound: Optional[int]
     claimed_s: Optional[float]
-    anytime: bool   # improves its plan until the time limit
-    trace: tuple    # Points; empty: none reported
+    anytime: bool   # the solver improves its plan until the time limit
+    trace: tuple    # Points; empty if the run reports none
     certified: Optional[bool]  # None: no certificate was requested
     verify_s: Optional[float]
     proof_bytes: Optional[int]
@@ -93,12 +92,12 @@ class Row(NamedTuple):
 
     @property
     def bounds_every_plan(self):
-        """Whether its lower bound holds for all plans, not only for plans without following conflicts."""
+        """Whether the lower bound holds for all plans, not only for plans without following conflicts."""
         return "--no-following" not in self.options
 
 
 def printable(text):
-    """Returns the text without lone surrogates, which file names and JSON strings may contain."""
+    """Returns the text with lone surrogates escaped; file names and JSON strings can contain them."""
     return text.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
@@ -112,7 +111,7 @@ def _text(value):
 
 
 def _integer(value):
-    """Reads an integer of at least 0."""
+    """Reads an integer >= 0."""
     if isinstance(value, str) and value.isascii() and value.isdigit() and len(value) <= 18:
         return int(value)
     if isinstance(value, int) and not isinstance(value, bool) and value >= 0:
@@ -121,7 +120,7 @@ def _integer(value):
 
 
 def _number(value):
-    """Reads a finite number of at least 0."""
+    """Reads a finite number >= 0."""
     try:
         if isinstance(value, (str, int, float)) and not isinstance(value, bool):
             number = float(value)
@@ -171,12 +170,12 @@ def _one_of(words):
 
 
 def _status(value):
-    """Reads a status; tables of before 0.1 have other words for two of them."""
+    """Reads a status. Tables from before version 0.1 have different words for two of them."""
     return _one_of(STATUSES)({"wrong": INVALID, "unsuitable": UNSUPPORTED}.get(value, value))
 
 
 def _counts(value):
-    """Reads "bypasses=2 mdd_queries=77", with the present names of the counters."""
+    """Reads counters such as "bypasses=2 mdd_queries=77" and returns them with their current names."""
     try:
         pairs = [word.split("=") for word in value.split()]
         return {_text(RENAMED_COUNTERS.get(name, name)): _integer(number) for name, number in pairs}
@@ -185,7 +184,7 @@ def _counts(value):
 
 
 def _trace(value):
-    """Reads "0.25:120:100 1.5:118:-": seconds, cost, lower bound."""
+    """Reads a trace such as "0.25:120:100 1.5:118:-", whose words are seconds:cost:lower_bound."""
     try:
         words = [word.split(":") for word in value.split()]
         return tuple(Point(_number(seconds), _integer(cost), None if bound == "-" else _integer(bound))
@@ -194,7 +193,7 @@ def _trace(value):
         raise ValueError("plans as seconds:cost:bound, separated by blanks") from None
 
 
-# {column: (reader, value if absent)}; NEEDED: the column is required.
+# {column: (reader, value if absent)}. NEEDED instead of a value means that the column is required.
 NEEDED = object()
 COLUMNS = {
     "instance": (_text, NEEDED), "method": (_text, NEEDED), "options": (_text, ""),
@@ -226,19 +225,19 @@ def _shown(value):
 
 
 class Unreadable(NamedTuple):
-    """Stands for a row without data of its instance, because grove bench could not read the instance."""
+    """Represents a row without data about its instance, because grove bench could not read the instance."""
     instance: str
 
 
 class CutOff(NamedTuple):
-    """Stands for a last line that is cut off, because the bench was killed or still runs."""
+    """Represents an incomplete last line, because the benchmark was killed or is still running."""
 
 
 _OF_INSTANCE = tuple(_NAMES.index(name) for name in ("map", "agents", "tasks", "problem"))
 
 
 def _row(values, place):
-    """Returns the Row, or Unreadable. `values`: one per column of COLUMNS, in order; None or "": absent."""
+    """Returns a Row or Unreadable. `values`: one value per column, in the order of COLUMNS; None or "" if absent."""
     if values[_NAMES.index("status")] == "error" and not any(values[at] for at in _OF_INSTANCE):
         return Unreadable(_text(str(values[0])))
     read = []
@@ -261,13 +260,13 @@ def _row(values, place):
         raise BadInput(f"{place}, column cost: empty in a solved row; expected an integer")
     sqr = row.sqr
     if row.solved and sqr is None and row.root_cost is not None:
-        sqr = row.root_cost / row.cost if row.cost else 1.0  # with a cost of 0 the root cost is 0, too
+        sqr = row.root_cost / row.cost if row.cost else 1.0  # if the cost is 0, so is the root cost
     return row._replace(runtime_s=row.runtime_s if row.solved else row.time_limit_s,
                         sqr=sqr if row.solved else None)
 
 
 def row_of(found, place):
-    """Returns the row of a dictionary of columns; other keys are ignored. `place`: for error messages."""
+    """Returns the Row for a dictionary {column: value}. Ignores other keys. `place`: for error messages."""
     return _row([found.get(name) for name in _NAMES], place)
 
 
@@ -323,8 +322,8 @@ READERS = {".csv": _read_csv, ".jsonl": _read_json_lines}
 
 
 def results_in(folder):
-    """Returns the results file of a directory. Returns None if there is none."""
-    for name in ("results.jsonl", "results.csv"):  # same rows; only the first is always complete
+    """Returns the results file in a directory. Returns None if there is none."""
+    for name in ("results.jsonl", "results.csv"):  # the same rows, but only the first file is always complete
         if (folder / name).exists():
             return folder / name
     return None
@@ -356,8 +355,10 @@ def _read_file(path):
 
 
 def _without_repeats(rows):
-    """Returns (rows without repeats, number of omitted rows). Of rows with the same method, instance, omega, limit and
-    seed it keeps the one that ended last."""
+    """Returns (rows without repetitions, number of omitted rows).
+
+    Keeps the row that ended last among rows with the same method, instance, omega, limit and seed.
+    """
     kept = {}
     for row in rows:
         key = (row.problem, row.instance, row.method, row.omega, row.time_limit_s, row.seed)
@@ -368,17 +369,17 @@ def _without_repeats(rows):
 
 class Results(NamedTuple):
     rows: list
-    files: list     # (path as text, rows in it)
-    cut_off: list   # paths of files whose last line is cut off and was omitted
-    repeated: int   # rows omitted because a later one repeats their run
-    unreadable: list  # instances that grove bench could not read; their rows are omitted
+    files: list     # (path as text, number of rows)
+    cut_off: list   # paths of files with an incomplete last line, which was omitted
+    repeated: int   # number of rows that were omitted because a later row repeats their run
+    unreadable: list  # instances that grove bench could not read; their rows were omitted
 
 
 NO_RESULTS = Results([], [], [], 0, [])
 
 
 def read_results(arguments):
-    """Reads the rows of all files and directories, sorted. Raises BadInput."""
+    """Reads the rows of all files and directories and returns the Results, sorted. Raises BadInput."""
     files = list(dict.fromkeys(_files(argument) for argument in arguments))
     rows, counts, cut_off, unreadable = [], [], [], []
     for path in files:
@@ -392,7 +393,7 @@ def read_results(arguments):
     if not rows:
         raise BadInput(f"{', '.join(path for path, _ in counts)}: no rows; expected at least one")
     kept, repeated = _without_repeats(rows)
-    # The result must not depend on the order in which runs ended.
+    # Sorts the rows, because the result must not depend on the order in which runs ended.
     kept.sort(key=lambda row: (row.problem, row.map, row.agents, row.tasks, row.scenario or 0,
                                row.instance, row.method, row.omega, row.time_limit_s,
                                -1 if row.seed is None else row.seed))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Ratios of the times of the baselines to the times of the other methods, on instances that are not trivial."""
+"""Computes ratios of the baselines' times to the times of the other methods, on instances that are not trivial."""
 import math
 import statistics
 from collections import defaultdict
@@ -7,30 +7,30 @@ from typing import NamedTuple
 
 from .lines import Line
 
-# Below this time an instance measures start-up rather than search.
+# An instance that takes less time measures the start of the program rather than the search.
 TRIVIAL_S = 1.0
-# Resolution of times that include the start of a process.
+# Resolution of times that include the start of a process, seconds.
 RESOLUTION_S = 0.001
-# Virtual best baseline: on each instance the fastest baseline.
+# Virtual best baseline: the fastest baseline on each instance.
 BEST = Line("best baseline", "", 0.0)
 ALL_MAPS = ""
 
 
 class Speedup(NamedTuple):
-    map: str              # ALL_MAPS: all maps
-    baseline: Line        # or BEST
+    map: str              # a map, or ALL_MAPS
+    baseline: Line        # a baseline, or BEST
     line: Line
-    instances: int        # tried by both, and solved by the best baseline in more than TRIVIAL_S
+    instances: int        # number of instances that both tried and that the best baseline solved in more than TRIVIAL_S
     median_ratio: float   # time of the baseline / time of the line; a failure counts as the limit
     sure: str             # how failures affect the ratio: "exactly", "at least", "at most", "about"
     baseline_median_s: float
     line_median_s: float
-    baseline_failed: int  # of `instances`
-    line_failed: int
+    baseline_failed: int  # number of failures of the baseline among `instances`
+    line_failed: int      # number of failures of the line among `instances`
 
 
 def best_baseline(lines, is_baseline):
-    """Returns the fastest solved row of a baseline. Returns None if no baseline solved the instance."""
+    """Returns the fastest solved row among the baselines. Returns None if no baseline solved the instance."""
     solved = [row for line, row in lines.items() if is_baseline(line) and row.solved]
     return min(solved, key=lambda row: row.runtime_s, default=None)
 
@@ -40,9 +40,11 @@ def _ratio(mine, other):
 
 
 def _sure(pairs, median):
-    """Returns "exactly", "at least", "at most" or "about": how the median depends on failures. A failed run would have
-    taken longer than the limit, by an unknown amount: the ratio of its pair is larger if the baseline failed, and
-    smaller if the other method did."""
+    """Returns how failures affect the median ratio: "exactly", "at least", "at most" or "about".
+
+    A failed run would have taken longer than the limit, by an unknown amount. The true ratio of its pair is therefore
+    larger if the baseline failed, and smaller if the other method failed.
+    """
     highest = statistics.median(_ratio(*pair) if pair[0].solved else math.inf for pair in pairs)
     lowest = statistics.median(_ratio(*pair) if pair[1].solved else 0 for pair in pairs)
     return {(True, True): "exactly", (True, False): "at least",
@@ -50,7 +52,7 @@ def _sure(pairs, median):
 
 
 def _compared(pairs):
-    """Returns the fields of Speedup after `line`. `pairs`: (row of the baseline, row of the other method)."""
+    """Returns the fields of Speedup after `line`. `pairs`: list of (row of the baseline, row of the other method)."""
     median = statistics.median(_ratio(*pair) for pair in pairs)
     return (len(pairs), median, _sure(pairs, median),
             statistics.median(mine.runtime_s for mine, _ in pairs),
@@ -59,7 +61,10 @@ def _compared(pairs):
 
 
 def hard_instances(runs, is_baseline):
-    """Returns {instance: row of the best baseline} where this row took more than TRIVIAL_S. `runs`: median_runs()."""
+    """Returns {instance: row of the best baseline} for the instances on which it took more than TRIVIAL_S.
+
+    runs: median_runs().
+    """
     best = {instance: best_baseline(lines, is_baseline) for instance, lines in runs.items()}
     return {instance: row for instance, row in best.items() if row and row.runtime_s > TRIVIAL_S}
 

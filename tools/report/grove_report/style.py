@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""Colour, marker and dashes of a line, the same in every figure."""
+"""Assigns colour, marker and dashes to each line, the same in every figure."""
 from typing import NamedTuple
 
-# Okabe and Ito's colours, which colour-blind readers can distinguish, without the yellow, which is hard to
-# see on white; a brown; from the ninth on, darker and greyer colours. The numbers of colours and markers
-# have no common divisor, so that 132 lines differ in their pair.
+# The palette of Okabe and Ito, which colour-blind readers can distinguish, without its yellow, which is hard to see on
+# white; then a brown; from the ninth on, darker and greyer colours. The numbers of colours and markers have no common
+# divisor, so that up to 132 lines have distinct pairs of colour and marker.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9", "#8C510A",
            "#7B3294", "#7F7F7F", "#A50026", "#66A61E")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", "*", ">", "p")
 
-# Colours of the parts of a bar: light, because numbers are printed on them, and of different lightness, for
+# Colours of the parts of a bar. They are light, because numbers are printed on them, and differ in lightness, for
 # black-and-white print.
 KIND_COLOURS = ("#9ECAE1", "#FDD0A2", "#74C476", "#DADAEB", "#E7969C", "#D9D9D9", "#F2E394", "#BC9F8B")
 
@@ -23,17 +23,17 @@ DASHES = ((4, 1.6), (1.3, 1.3), (6, 1.3, 1.3, 1.3), (2.4, 1), (6, 1.3, 1.3, 1.3,
 class Style(NamedTuple):
     colour: str
     marker: str
-    dashes: object  # of a baseline; None: a solid line
+    dashes: object  # dash pattern of a baseline; None: a solid line
 
 
 def style_of(index, is_baseline):
-    """Returns the style of line number `index` of all lines."""
+    """Returns the Style of the line with number `index`, from 0, among all lines."""
     return Style(COLOURS[index % len(COLOURS)], MARKERS[index % len(MARKERS)],
                  DASHES[index % len(DASHES)] if is_baseline else None)
 
 
 def depth(rank, count):
-    """Returns the depth of the line drawn as number `rank` of `count`: 0 for the last one, at most 1."""
+    """Returns the depth of line number `rank` of `count` lines in drawing order, from 0 (drawn last) to at most 1."""
     return (count - 1 - rank) / max(count - 1, 4)
 
 
@@ -41,8 +41,11 @@ APART = 0.2  # depth of all lines in a figure where few lines coincide
 
 
 def plot_arguments(style, below):
-    """Returns arguments for Axes.plot(). `below`: depth(), for lines that coincide, as many do at 100 %. A deeper
-    line is broader and has larger markers, so that all remain visible."""
+    """Returns arguments for Axes.plot().
+
+    below: depth() of the line. A deeper line is broader and has larger markers, so that lines that coincide, as many do
+    at 100 %, all remain visible.
+    """
     size = EVEN.get(style.marker, 1) * (3.4 + 5.4 * below)
     return {"color": style.colour, "marker": style.marker, "linewidth": 0.9 + 1.4 * below,
             "linestyle": (0, style.dashes) if style.dashes else "-", "markersize": size,

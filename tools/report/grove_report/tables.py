@@ -18,8 +18,10 @@ def csv_value(value):
 
 
 def _is_like_a_formula(text):
-    """Returns whether a spreadsheet would interpret the text as a formula (OWASP, CSV injection; the same rule as in
-    src/io/csv.cpp)."""
+    """Returns whether a spreadsheet would interpret the text as a formula (OWASP, CSV injection).
+
+    The rule is the same as in src/io/csv.cpp.
+    """
     bare = text.lstrip("'")
     return bare.startswith(("=", "+", "-", "@", "\t", "\r")) and not re.fullmatch(
         r"-[0-9]+(\.[0-9]*)?(e[-+]?[0-9]+)?", bare)
@@ -85,7 +87,7 @@ def _cell(tag, entry):
 
 
 def html_table(header, rows):
-    """Returns a table with a sticky header. `header`: texts or Entries; `rows`: lists of Entries."""
+    """Returns an HTML table with a sticky header. `header`: list of texts or Entries. `rows`: lists of Entries."""
     numbers = rows[0] if rows else [Entry("")] * len(header)
     heads = [entry if isinstance(entry, Entry) else Entry(entry, number=first.number)
              for entry, first in zip(header, numbers)]

@@ -26,7 +26,7 @@ room-64-64-8 w_woundedcoast warehouse-10-20-10-2-1 warehouse-10-20-10-2-2 wareho
 warehouse-20-40-10-2-2""".split())
 SCENARIO = re.compile(r"(.+)-(even|random)-([0-9]{1,6})")
 COLUMNS = ["map_name", "scen_type", "type_id", "agents", "lower_cost", "solution_cost", "flip_up_down", "solution_plan"]
-ABSENT = ("", "null", "undefined", None)  # missing values in its downloads
+ABSENT = ("", "null", "undefined", None)  # missing values in downloads from MAPF Tracker
 
 
 class Place(NamedTuple):
@@ -38,7 +38,7 @@ class Place(NamedTuple):
 
 
 def place_of(row):
-    """Returns the Place of a row. Returns None if its name is not that of the first rows of a Moving AI scenario."""
+    """Returns the Place of a row. Returns None if the instance is not named as rows of a Moving AI scenario."""
     name = row.instance.rsplit("/", 1)[-1]
     found = SCENARIO.fullmatch(name.removesuffix(f"-{row.agents}"))
     if row.problem != "mapf" or not name.endswith(f"-{row.agents}") or not found or found[1] != row.map:
@@ -51,7 +51,7 @@ def place_of(row):
 class Submission(NamedTuple):
     text: str
     rows: int
-    left_out: Counter  # {why: number of runs}
+    left_out: Counter  # {reason: number of runs}
 
 
 def _lower_bound(rows, cost):
@@ -62,8 +62,10 @@ def _lower_bound(rows, cost):
 
 
 def _best_plan(rows, left_out):
-    """Returns (cost, motion strings) of the cheapest plan whose file still agrees with its row. Returns None if there
-    is none."""
+    """Returns (cost, motion strings) of the cheapest plan whose file still agrees with its row.
+
+    Returns None if there is none.
+    """
     for row in sorted(rows, key=lambda row: (row.cost, row.seed or 0)):
         try:
             paths = read_plan(Path(row.plan_file), row.agents)
@@ -88,8 +90,10 @@ def _why_not(row):
 
 
 def submission(rows, best):
-    """Returns the CSV with the cheapest plan of each instance. `rows`: of one method. `best`: best_costs() of all rows;
-    bounds above these costs are omitted."""
+    """Returns the Submission with the cheapest plan for each instance.
+
+    rows: the rows of one method. best: best_costs() of all rows; bounds above these costs are omitted.
+    """
     left_out = Counter()
     fit = []
     for row in rows:
@@ -120,7 +124,7 @@ class Known(NamedTuple):
 
 
 def _named(path):
-    """Returns the columns that the file name MAP.csv or MAP-even-3.csv gives for all its rows."""
+    """Returns the columns that the file name, such as MAP.csv or MAP-even-3.csv, determines for all its rows."""
     found = SCENARIO.fullmatch(path.stem)
     return {"map_name": found[1], "scen_type": found[2], "type_id": found[3]} if found else {"map_name": path.stem}
 
@@ -136,7 +140,7 @@ def _whole(value, place, column):
 
 
 def _known_row(found, place):
-    """Returns (Place, Known) of one row. Raises BadInput."""
+    """Returns (Place, Known) for one row of a download. Raises BadInput."""
     for column in ("map_name", "scen_type", "type_id", "agents"):
         if found.get(column) in ABSENT:
             raise BadInput(f"{place}: missing {column}; expected the columns of a download of MAPF Tracker, "
@@ -148,7 +152,7 @@ def _known_row(found, place):
 
 
 def _csv_rows(path, text):
-    csv.field_size_limit(min(sys.maxsize, 2**31 - 1))  # plans of a thousand agents are long
+    csv.field_size_limit(min(sys.maxsize, 2**31 - 1))  # because plans for a thousand agents are long
     reader = csv.DictReader(io.StringIO(text, newline=""), strict=True)
     try:
         header = reader.fieldnames or []
@@ -189,7 +193,7 @@ def _better(one, other):
 
 
 def read_known(arguments):
-    """Returns {Place: Known} of all files, with the best values where files overlap."""
+    """Returns {Place: Known} for all files, with the best values if files overlap."""
     known = {}
     for path in (path for argument in arguments for path in _files(argument)):
         try:
@@ -206,7 +210,7 @@ def read_known(arguments):
 
 
 class Comparison(NamedTuple):
-    """Best cost and bound of a line on one instance, with the best known ones."""
+    """Best cost and bound of a line on one instance, with the best known cost and bound."""
     instance: str
     place: Place
     known: Known
@@ -228,7 +232,7 @@ class Comparison(NamedTuple):
 
     @property
     def closes(self):
-        """Whether it proves an optimum that the archive does not have."""
+        """Whether the line proves an optimum that the archive does not have."""
         is_open = self.known.cost is None or self.known.bound is None or self.known.bound < self.known.cost
         best = min(cost for cost in (self.cost, self.known.cost) if cost is not None) \
             if (self.cost, self.known.cost) != (None, None) else None
@@ -236,13 +240,13 @@ class Comparison(NamedTuple):
 
 
 def known_of(rows, known):
-    """Returns {(problem, instance): Known} of the instances in the archive."""
+    """Returns {(problem, instance): Known} for the instances that the archive has."""
     places = {(row.problem, row.instance): place_of(row) for row in rows}
     return {key: known[place] for key, place in places.items() if place in known}
 
 
 def comparisons(rows, known):
-    """Returns the Comparisons of all rows whose instance is in the archive. `known`: read_known()."""
+    """Returns the Comparisons for all rows whose instance is in the archive. `known`: read_known()."""
     found = []
     groups = grouped(rows, lambda row: (row.problem, row.instance, line_of(row)))
     for (_, instance, line), group in groups.items():

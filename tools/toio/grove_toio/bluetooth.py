@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Real cubes, through bleak (Debian: python3-bleak 0.20). Not tested with real cubes.
+"""Connects to real cubes by bleak (Debian: python3-bleak 0.20). Not tested with real cubes.
 
-The interface is that of simulated cubes: write(), configure() and three handlers of notifications.
+Real and simulated cubes have the same interface: write(), configure() and three notification handlers.
 """
 import asyncio
 
@@ -29,14 +29,14 @@ class BluetoothCube:
         self.bleak = _bleak()
         self.device = device
         self.on_motor = self.on_id = self.on_configuration = lambda data: None
-        self.configuration = None       # a cube loses it with the connection
+        self.configuration = None       # kept here, because a cube loses it with the connection
         self.wanted = False
         self.reconnecting = None
         self.client = self.bleak.BleakClient(device, disconnected_callback=self._lost, timeout=CONNECT_SECONDS)
 
     @property
     def label(self):
-        """Name and address, because names are not unique."""
+        """Name and address of the cube, because names are not unique."""
         return f"{self.device.name or 'a cube'} ({self.device.address})"
 
     async def connect(self):
@@ -61,7 +61,7 @@ class BluetoothCube:
             try:
                 await self.connect()
             except (self.bleak.exc.BleakError, asyncio.TimeoutError, OSError, EOFError):
-                pass    # the loop tries again; the driver reports that the cube is silent
+                pass    # the loop tries again; until then the driver reports that the cube is silent
 
     async def disconnect(self):
         self.wanted = False
@@ -73,7 +73,7 @@ class BluetoothCube:
             pass
 
     async def write(self, data):
-        """Writes a motor command. A failed write counts as a lost message."""
+        """Writes a motor command. A failed write is treated as a lost message."""
         await self._write(protocol.MOTOR, data, False)
 
     async def configure(self, data):
@@ -87,7 +87,7 @@ class BluetoothCube:
             pass
 
     async def read_position(self):
-        """Returns (x, y). Returns None if the cube does not stand on a mat."""
+        """Returns the position (x, y) in mat units. Returns None if the cube does not stand on a mat."""
         for _ in range(READ_TRIES):
             found = protocol.read_id_notification(bytes(await self.client.read_gatt_char(protocol.ID_INFORMATION)))
             if isinstance(found, protocol.Position):
@@ -97,7 +97,10 @@ class BluetoothCube:
 
 
 def choose_named(devices, named):
-    """Returns ({robot: device}, devices that are not named). Raises BadInput if a named device is missing."""
+    """Returns ({robot: device}, all other devices). `named`: {robot: name or address}.
+
+    Raises BadInput if a named device is missing.
+    """
     chosen = {}
     for robot, name in named.items():
         found = [d for d in devices if name.lower() in (d.address.lower(), (d.name or "").lower())]
@@ -109,7 +112,7 @@ def choose_named(devices, named):
 
 
 def choose_by_place(order, grid, robots, positions):
-    """Returns {robot: label} by the start on which each cube stands. `positions`: {label: (x, y) or None}."""
+    """Returns {robot: label of the cube on its start}. `positions`: {label: (x, y) or None}."""
     chosen = {}
     for robot in robots:
         start = grid.centre(order.robot(robot).start)
@@ -141,7 +144,7 @@ async def _scan():
 
 
 async def connect_cubes(order, grid, named):
-    """Returns {robot: cube}, all connected."""
+    """Connects one cube per robot and returns {robot: cube}."""
     devices, others = choose_named(await _scan(), named)
     cubes = {}
     spare = []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Command line of grove toio."""
+"""Implements the command line of grove toio."""
 import asyncio
 import contextlib
 import os
@@ -122,7 +122,7 @@ def _parser():
 
 
 def _add_simulation(add):
-    """Adds options without defaults, so that _parse() can detect which ones were given."""
+    """Adds the options for simulation, without defaults, so that _parse() can detect which options were given."""
     add("--fast", action="store_const", const=True, help="run in virtual time: fast and repeatable")
     add("--loss", type=share, metavar="SHARE", help="share of lost messages, in each direction (default: 0.05)")
     add("--slip", type=amount, metavar="RATE", help="slips per second of driving (default: 0.05)")
@@ -185,7 +185,7 @@ async def _drive_real(a, order, grid, options):
 
 
 async def _drive(a, order, grid, options):
-    """Drives the order; returns (outcome, world). The world is None with real cubes."""
+    """Drives the cubes along the order and returns (outcome, world). The world is None with real cubes."""
     task = asyncio.current_task()
     asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, task.cancel)
     if a.bluetooth:

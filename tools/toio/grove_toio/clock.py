@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Event loop with virtual time: instead of sleeping it advances its clock, so that runs are fast and repeatable."""
+"""Provides an event loop with virtual time. It advances its clock instead of sleeping, so runs are fast and repeatable.
+"""
 import asyncio
 import selectors
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Demonstration from instance to execution: three cubes, six tasks, 7 x 5 cells with obstacles."""
+"""Demonstrates the way from instance to execution: three cubes, six tasks, 7 x 5 cells with obstacles."""
 import json
 import subprocess
 import tempfile
@@ -31,13 +31,13 @@ def demo_order():
 
 
 def demo_visits():
-    """Returns [(task, robot, cell)] of all required visits."""
+    """Returns all visits that the demonstration requires, as [(task, robot, cell)]."""
     instance = json.loads(INSTANCE.read_text(encoding="utf-8"))
     return [(task["id"], robot, tuple(task["cell"])) for task in instance["tasks"] for robot in task["agents"]]
 
 
 def tasks_left(order, done):
-    """Returns the tasks of the demonstration that some robot has not visited."""
+    """Returns the tasks of the demonstration that some assigned robot has not visited, in order of their ids."""
     seen = {(r.name, cell) for r in order.robots
             for cell in (r.start, *(a.place for a in r.actions[:done[r.name]]))}
     return sorted({task for task, robot, cell in demo_visits() if (robot, cell) not in seen})

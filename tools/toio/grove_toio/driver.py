@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Drives cubes along a passing order.
 
-Each robot does its actions one after the other, each once the order allows it. An action is done when the cube
-is detected at rest within the tolerance of the grid (mat.py). Its response does not count, because responses may
-be lost, and come up to 15 units early. For a cube that drives on, straight or round a corner, the action is done
-when the cube is detected within the tolerance of its next lane.
+Each robot does its actions one after the other and starts each as soon as the order allows it. An action is done when
+the cube is detected at rest within the tolerance of the grid (mat.py). The response of the cube does not count, because
+responses can be lost and come up to 15 units before the target. If the cube drives on without a stop, straight or round
+a corner, the action is done when the cube is detected within the tolerance of its next lane.
 
-A second check covers events outside the order, such as cubes that were lifted and put back elsewhere: no cube
-drives a line that comes closer than the safe distance to another cube or to the line that the other cube drives.
-While cubes follow the order, this check never stops one.
+A second check covers events outside the order, for instance a cube that a user lifts and puts back elsewhere. No cube
+drives along a line that comes closer than the safe distance to another cube or to the line along which that cube
+drives. As long as all cubes follow the order, this check never stops a cube.
 """
 import asyncio
 import math
@@ -24,13 +24,13 @@ from .simulated import UNITS_PER_SPEED
 
 POLL = 0.03
 CLEAR_TO_BEGIN, CLEAR_TO_CONTINUE = BODY + 1.0, BODY
-BY_HAND = REACHED_BOX + 2       # distance below which a cube ignores a target, and noise, units
+BY_HAND = REACHED_BOX + 2       # distance below which a cube may ignore a target (REACHED_BOX plus noise), units
 ROLL_SPEED = 20
-UNHEARD = 1.5                   # a cube at rest may seem to be this far beyond the tolerance, units
-ASTRAY = 0.75                   # distance from its lane beyond which a cube is not driven back, cells
+UNHEARD = 1.5                   # a cube at rest can appear to be up to this far outside the tolerance, units
+ASTRAY = 0.75                   # a cube farther from its lane is not driven back, cells
 TURN_TOLERANCE = 8
 ASK_SECONDS = 0.5
-PATIENCE = 3.0                  # time for the first position of a cube, seconds
+PATIENCE = 3.0                  # time that a cube has for its first position, seconds
 
 
 class Outcome(NamedTuple):
@@ -40,8 +40,8 @@ class Outcome(NamedTuple):
     all_actions: int
     writes: int
     repeats: int
-    corrections: int            # short rolls over the last units
-    waits: list                 # texts: why robots are not done
+    corrections: int            # number of short rolls over the last units
+    waits: list                 # texts that say why robots are not done
 
     @property
     def actions(self):
@@ -56,9 +56,9 @@ class Driver:
         self.log, self.say = log, say
         self.handles = [Handle(robot, cubes[robot.name], grid.centre(robot.start), self.now) for robot in order.robots]
         self.by_name = {h.name: h for h in self.handles}
-        self.at_ring = {ring: {} for ring in order.rings}     # ring: {robot: last part that it has ended}
+        self.at_ring = {ring: {} for ring in order.rings}     # {ring: {robot: last part that it has completed}}
         self.under_way = set()                                # rings in progress
-        self.reported = {}                                    # {(robot, about): (kind, text)}
+        self.reported = {}                                    # {(robot, subject): (kind, text)}
 
     def now(self):
         return self.loop.time() - self.begun
@@ -70,7 +70,7 @@ class Driver:
         return after is None or self.by_name[after[0]].done > after[1]
 
     def next_point(self, handle, k):
-        """Returns the goal of action k + 1 if the cube may drive on to it without a stop. Returns None otherwise."""
+        """Returns the goal of action k + 1 if the cube may drive on to it without a stop; otherwise None."""
         actions = handle.robot.actions
         if k + 1 >= len(actions):
             return None
@@ -128,7 +128,7 @@ class Driver:
             await self.poll(handle)
 
     async def work(self, handle, _, action):
-        """Works; only time in which the cube stands on its cell counts."""
+        """Executes a task. Only the time during which the cube stands on its cell counts."""
         left, then = action.steps * self.step_seconds, self.now()
         while left > 1e-6:
             if self.stands(handle):
@@ -142,7 +142,7 @@ class Driver:
             then = self.now()
 
     async def go_round(self, handle, ring):
-        """Drives a ring part by part; no robot begins a part before all have ended the one before."""
+        """Drives the cube through a ring. No robot starts a part before all robots have completed the previous part."""
         those = [self.handles[i] for i, _ in self.order.rings[ring]]
         path = rings.wide_paths(self.ring_cells(ring))[those.index(handle)]
         tolerance = min(self.grid.tolerance, rings.TOLERANCE)
@@ -161,7 +161,7 @@ class Driver:
             and distance(handle.mean, handle.place) <= self.grid.tolerance + UNHEARD
 
     async def stand_until(self, handle, may, state="waiting"):
-        """Waits until may(). A cube that is pushed away in the meantime returns to its place."""
+        """Waits until may() returns true. If the cube is pushed away in the meantime, drives it back to its place."""
         while not may():
             if not self.fit(handle):
                 pass
@@ -178,7 +178,7 @@ class Driver:
     # ---- Motion
 
     async def reach(self, handle, goal, tolerance, onward=lambda: None):
-        """Drives until the cube stands at the goal, or is detected on the lane from the goal to onward()."""
+        """Drives the cube until it is at rest at the goal, or is detected on the lane from the goal to onward()."""
         handle.goal = goal
         while True:
             handle.far = far = onward()
@@ -211,13 +211,13 @@ class Driver:
 
     @staticmethod
     async def hold(handle):
-        """Sends a stop unless the cube is at rest or stopping. Callers repeat this, because messages may be lost."""
+        """Sends a stop unless the cube is at rest or stopping. Call it repeatedly, because messages can be lost."""
         stopping = handle.command is not None and handle.command.kind == "stop"
         if handle.seen_now and not stopping and not handle.at_rest:
             await handle.stop()
 
     async def redirect(self, handle, path):
-        """Extends or shortens a journey in progress. Other motions are short and end first."""
+        """Extends or shortens a journey in progress. Other motions are short, so they are left to end."""
         if handle.command.kind != "journey" or handle.command.path[-1] == path[-1]:
             return
         if len(path) == 2 or not self.within_hand(handle.position, path[0]):
@@ -236,7 +236,7 @@ class Driver:
         return abs(goal[0] - point[0]) <= BY_HAND and abs(goal[1] - point[1]) <= BY_HAND
 
     async def by_hand(self, handle, goal):
-        """Drives the last units, which the cube itself ignores: turns it towards or away from the goal, then rolls."""
+        """Turns the cube towards or away from the goal, then rolls. For last units, where a cube ignores targets."""
         dx, dy = goal[0] - handle.mean[0], goal[1] - handle.mean[1]
         way, bearing = math.hypot(dx, dy), math.degrees(math.atan2(dy, dx))
         off = turn_between(handle.angle, bearing)
@@ -259,7 +259,7 @@ class Driver:
     # ---- Failures
 
     def fit(self, handle):
-        """Returns whether the cube can be driven. Reports each cause once."""
+        """Returns whether the cube can be driven. Otherwise reports the cause, each cause once."""
         if handle.trouble:
             return self.unfit(handle, "lost", handle.trouble)
         if handle.missing:
@@ -275,25 +275,25 @@ class Driver:
 
     def unfit(self, handle, state, why):
         if handle.position is None and self.now() < PATIENCE:
-            return False    # the first position has just been requested
+            return False    # no report yet, because the first position has just been requested
         self.set_state(handle, state)
         self.report(handle, "unfit", why)
         return False
 
     def report(self, handle, about, text):
-        """Prints the text once, as long as its kind stays the same."""
+        """Prints the text unless the last report on this subject was of the same kind."""
         kind = text.split(",")[0].split("[")[0]
         if self.reported.get((handle.name, about), ("",))[0] != kind:
             self.reported[handle.name, about] = kind, text
             self.say(f"{self.now():7.1f} s  {handle.name} {text}")
 
     def withdraw(self, handle, about, text=None):
-        """Clears a report, and prints `text` if there was one."""
+        """Clears the report on a subject. If there was one, prints `text`."""
         if self.reported.pop((handle.name, about), None) and text:
             self.say(f"{self.now():7.1f} s  {handle.name} {text}")
 
     def waits_of(self, handle):
-        """Returns a text that says why the robot does not continue. Returns None if it has done all its actions."""
+        """Returns the reason why the robot does not continue. Returns None if it has done all its actions."""
         k = handle.done
         if (handle.name, "unfit") in self.reported:
             return f"{handle.name} {self.reported[handle.name, 'unfit'][1]}"
@@ -340,7 +340,7 @@ class Driver:
             await asyncio.sleep(POLL)
 
     async def drive(self, seconds=math.inf):
-        """Drives until all robots are done, for at most `seconds`. Stops all cubes at the end, even after errors."""
+        """Drives all robots until they are done or `seconds` have passed. Then stops all cubes, even after errors."""
         tasks = [asyncio.create_task(work) for handle in self.handles
                  for work in (self.ask_for_positions(handle), self.run_robot(handle))]
         tasks.append(asyncio.create_task(self.log_all()))
@@ -363,7 +363,7 @@ class Driver:
                 task.result()
 
     async def stop_all(self):
-        """Stops all cubes; writes three times, because messages may be lost."""
+        """Stops all cubes. Sends each stop three times, because messages can be lost."""
         for _ in range(3):
             await asyncio.gather(*(h.stop() for h in self.handles))
             await asyncio.sleep(0.05)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Distances between points and paths in the plane. A path is a list of one or more points."""
+"""Computes distances between points and paths in the plane. A path is a list of at least one point."""
 import math
 
 
@@ -8,7 +8,7 @@ def distance(a, b):
 
 
 def turn_between(angle, wanted):
-    """Returns the smaller rotation from one angle to the other, in degrees from -180 to 180."""
+    """Returns the smaller rotation from `angle` to `wanted`, in degrees from -180 to 180."""
     return (wanted - angle + 180) % 360 - 180
 
 
@@ -45,7 +45,10 @@ def path_to_path(one, other):
 
 
 def nearer(one, other, least):
-    """Returns whether the distance of two paths is below `least`. Their first points and lengths usually suffice."""
+    """Returns whether the distance between two paths is below `least`.
+
+    First compares their first points and lengths, which usually suffices.
+    """
     if distance(one[0], other[0]) >= least + _length(one) + _length(other):
         return False
     return path_to_path(one, other) < least

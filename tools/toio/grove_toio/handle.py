@@ -1,34 +1,34 @@
 # SPDX-License-Identifier: MIT
-"""State of one cube for the driver: last position, current command, and whether the command is still running."""
+"""Tracks one cube for the driver: last position, current command, and whether the command is still running."""
 from collections import deque
 from typing import NamedTuple
 
 from . import protocol
 from .geometry import distance, point_to_segment, turn_between
 
-ANSWER_SECONDS = 0.5        # a cube that neither moves nor responds for this time has lost a message, or stopped
-SETTLE_SECONDS = 0.06       # time after the end of a motion until positions are those of a cube at rest
+ANSWER_SECONDS = 0.5        # after this time without motion and response, a message was lost or the cube has stopped
+SETTLE_SECONDS = 0.06       # time from the end of a motion until notified positions are those of a cube at rest
 SILENT_SECONDS = 1.0
-MOVED, TURNED = 3.5, 7      # thresholds of motion above noise, units and degrees
-SEEN_AT_REST = 3            # positions required for an arrival
+MOVED, TURNED = 3.5, 7      # larger changes are motion and not noise, units and degrees
+SEEN_AT_REST = 3            # number of positions at rest that an arrival requires
 TIMEOUT = 5                 # time limit of the cube for each target, seconds
 
 
 class Command(NamedTuple):
     kind: str               # journey, turn, wheels or stop
-    path: tuple             # points that it leads to
+    path: tuple             # points to which the command leads
     number: int
     written: float
-    until: float            # when wheels or a stop end
+    until: float            # time at which a command of kind wheels or stop ends
 
 
 class Handle:
-    """A cube and the robot whose actions it does."""
+    """A cube together with the robot whose actions it does."""
 
     def __init__(self, robot, cube, place, now):
         self.robot, self.cube, self.name, self.now = robot, cube, robot.name, now
-        self.place = self.goal = place      # centres of its current or last cell, and of the next
-        self.far = None                     # point that it may drive on to from the goal without a stop
+        self.place = self.goal = place      # centres of its current or last cell, and of its next cell
+        self.far = None                     # point to which it may drive on from the goal without a stop, or None
         self.done = 0                       # number of actions done
         self.state = "waiting"
         self.command = None
@@ -36,7 +36,7 @@ class Handle:
         self.position = self.angle = None
         self.seen = now()
         self.missing = False
-        self.trouble = None                 # text: why it cannot be driven
+        self.trouble = None                 # text that says why the cube cannot be driven, or None
         self.configured = False
         self.moved_at, self.moved_from = now(), None
         self.rest_since = now()
@@ -83,7 +83,7 @@ class Handle:
         self.command, self.rest_since = None, self.now() + SETTLE_SECONDS
 
     def settle(self):
-        """Ends a command that has run out of time without a response."""
+        """Ends a command whose time has passed without a response."""
         if self.command is None:
             return
         if self.command.kind in ("wheels", "stop"):
@@ -108,7 +108,7 @@ class Handle:
 
     @property
     def at_rest(self):
-        """Whether the last positions are equal up to noise; those of a moving cube differ."""
+        """Whether the latest positions are equal up to noise. The positions of a moving cube differ."""
         if self.command is not None or not self.seen_now:
             return False
         those = self._positions_at_rest()
@@ -123,7 +123,7 @@ class Handle:
         return point_to_segment(self.position, a, b) <= tolerance
 
     def lane(self):
-        """Returns the path that it may occupy from now on."""
+        """Returns the path along which the cube may be from now on."""
         if not self.seen_now:
             return [self.place, self.goal]
         if self.command is None or self.command.kind == "stop":
@@ -132,7 +132,7 @@ class Handle:
         return [self.position] + (path[path.index(self.goal):] if self.goal in path else path)
 
     def strays(self):
-        """Returns the distance from its lane, units."""
+        """Returns the distance of the cube from its lane, in units."""
         path = [self.place, self.goal, *([self.far] if self.far else [])]
         return min(point_to_segment(self.position, a, b) for a, b in zip(path, path[1:]))
 
@@ -148,7 +148,7 @@ class Handle:
         return self.number
 
     async def travel(self, path, speed):
-        """Starts a journey to one point, or through a first to a second one."""
+        """Starts a journey to the points of `path` in order. `path`: one or two points."""
         self.repeats += tuple(path) == self.last_path
         self.last_path = tuple(path)
         those = [protocol.Target(round(x), round(y)) for x, y in path]

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Message formats of cubes.
+"""Encodes and decodes the messages of cubes.
 
 Source: toio Core Cube specification 2.4.0, pages "Motor", "Identification sensor" and "Configuration"
-(https://toio.github.io/toio-spec/en/). Numbers are little-endian. Angles are degrees, 0 along x, clockwise.
+(https://toio.github.io/toio-spec/en/). Numbers are little-endian. Angles are in degrees clockwise from the x axis.
 """
 import struct
 from typing import NamedTuple
@@ -15,7 +15,7 @@ CONFIGURATION = "10b201ff-5b3b-4571-9508-cf3efcd7bbae"
 ROTATE_THEN_STRAIGHT = 2
 CONSTANT_SPEED = 0
 OVERWRITE, APPEND = 0, 1
-SAME = 0xffff               # for x and y: current position of the cube
+SAME = 0xffff               # as x or y of a target: the current position of the cube
 SHORTEST, NO_ROTATION, SAME_ANGLE = 0, 5, 6
 LEAST_SPEED, MOST_SPEED = 10, 255
 MOST_TARGETS = 29
@@ -33,14 +33,14 @@ class Target(NamedTuple):
 
 
 class Wheels(NamedTuple):
-    """Speeds of the wheels, negative for backwards, and their duration; 0: unlimited."""
+    """Wheel speeds, negative for backwards, and their duration (0: unlimited)."""
     left: int
     right: int
     milliseconds: int
 
 
 class Journey(NamedTuple):
-    """One target (kind 0x03) or several (0x04)."""
+    """A journey to one target (kind 0x03) or through several (kind 0x04)."""
     kind: int
     number: int             # repeated in the response
     seconds: int            # time limit for each target; 0: 10 s
@@ -67,12 +67,12 @@ class Position(NamedTuple):
 
 
 class Missed(NamedTuple):
-    """The cube detects no position: it was lifted, or is outside the mat."""
+    """The cube detects no position, because it was lifted or is outside the mat."""
 
 
 class Notifying(NamedTuple):
     """Configuration of the position notifications."""
-    interval: int           # least interval, in units of 10 ms
+    interval: int           # minimum interval, in units of 10 ms
     condition: int          # 0: always; 1: on a change; 0xff: until 300 ms after a change
 
 
@@ -87,7 +87,7 @@ def _wheel(number, speed):
 
 
 def wheels(left, right, milliseconds=None):
-    """Returns a command that runs the wheels for `milliseconds`, in steps of 10 ms; None: until the next write."""
+    """Returns a command that runs the wheels for `milliseconds` (a multiple of 10; None: until the next write)."""
     both = _wheel(1, left) + _wheel(2, right)
     if milliseconds is None:
         return b"\x01" + both
@@ -124,7 +124,7 @@ def _read_wheels(data, milliseconds):
 
 
 def read_motor_write(data):
-    """Returns Wheels or a Journey. Returns None if a cube would discard the data."""
+    """Decodes a motor command and returns Wheels or a Journey. Returns None if a cube would discard the data."""
     kind, size = data[0], len(data)
     if kind == 0x01 and size == 7:
         return _read_wheels(data, 0)
@@ -161,12 +161,12 @@ def notifying_set():
 
 
 def read_motor_notification(data):
-    """Returns a Response. Returns None for other notifications."""
+    """Decodes a motor notification and returns a Response. Returns None for other notifications."""
     return Response(*data[:3]) if len(data) >= 3 and data[0] in (0x83, 0x84) else None
 
 
 def read_id_notification(data):
-    """Returns a Position or Missed. Returns None for other notifications."""
+    """Decodes an id notification and returns a Position or Missed. Returns None for other notifications."""
     if data[:1] == b"\x01" and len(data) == 13:
         return Position(*struct.unpack_from("<6H", data, 1))
     return Missed() if data[:1] in (b"\x02", b"\x03", b"\x04") else None

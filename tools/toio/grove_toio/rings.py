@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Motion of robots in a ring: each enters the cell that the next one leaves.
+"""Plans the motion of robots in a ring, in which each robot enters the cell that the next one leaves.
 
-If the robots drove straight, two of them would be half a cell from a corner at the same time, only 0.7 cells apart,
-and even closer if one lags. So they take the corners wide (four robots of a square drive on one circle), and they
-drive in PARTS: no robot begins a part before all have ended the one before. least_pitch() determines for every
-ring whether this keeps the robots apart, before any robot moves.
+If the robots drove straight, two of them would be half a cell from a corner at the same time. Then they are only 0.7
+cells apart, and even less if one lags. Therefore they take the corners wide (four robots in a square drive on one
+circle), and they drive in PARTS parts: no robot starts a part before all have completed the previous part. Before any
+robot moves, least_pitch() determines for each ring whether this keeps the robots apart.
 """
 import math
 
@@ -12,9 +12,9 @@ from .geometry import segment_to_segment
 from .mat import BODY
 
 PARTS = 4
-TOLERANCE = 3.0             # of positions at the ends of parts, units
+TOLERANCE = 3.0             # tolerance of positions at the ends of parts, units
 ERRORS = 1.0                # error of each cube's notified position and steering, units
-SPARE = 1.0
+SPARE = 1.0                 # additional distance, units
 
 
 def _direction(a, b):
@@ -22,7 +22,7 @@ def _direction(a, b):
 
 
 def _turn(a, b):
-    """Returns 1 for right (y is down), -1 for left, 0 for straight on."""
+    """Returns the turn from direction a to direction b: 1 for right (y is down), -1 for left, 0 for none."""
     return a[0] * b[1] - a[1] * b[0]
 
 
@@ -39,7 +39,7 @@ def _wide_path(cell, direction, turn_before, turn_after):
 
 
 def wide_paths(cells):
-    """Returns for the robot on each cell of the ring the ends of its parts, in cells, starting with its own cell."""
+    """Returns, for the robot on each cell of the ring, the points between its parts, in cells, from its own cell on."""
     count = len(cells)
     directions = [_direction(cells[i], cells[(i + 1) % count]) for i in range(count)]
     turns = [_turn(directions[i - 1], directions[i]) for i in range(count)]
@@ -47,16 +47,16 @@ def wide_paths(cells):
 
 
 def least_gap(paths):
-    """Returns the least distance between two robots on these paths that are anywhere in the same part."""
+    """Returns the least distance, in cells, between two robots on these paths that are anywhere in the same part."""
     return min(segment_to_segment(*one[part:part + 2], *other[part:part + 2])
                for i, one in enumerate(paths) for other in paths[:i] for part in range(PARTS))
 
 
 def least_pitch(cells):
-    """Returns the least pitch of the grid with which robots may drive this ring."""
+    """Returns the least pitch of the grid, in units, with which robots can drive this ring."""
     return (BODY + SPARE + 2 * (TOLERANCE + ERRORS)) / least_gap(wide_paths(cells))
 
 
 def near(cells, others):
-    """Returns whether robots of two rings, driven at the same time, could meet where they take corners wide."""
+    """Returns whether robots in two rings could meet where they take corners wide, if both rings drive concurrently."""
     return any(max(abs(a[0] - b[0]), abs(a[1] - b[1])) <= 1 for a in cells for b in others)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Simulation of cubes on a mat, each near the centre of the cell where its robot starts."""
+"""Simulates cubes on a mat. Each starts near the centre of the cell where its robot starts."""
 import asyncio
 import random
 
@@ -7,11 +7,11 @@ from .driver import Driver
 from .simulated import Disturbances, SimulatedCube
 from .world import Lift, World
 
-PUT_DOWN = 2.0              # error of the manual placement, units from the centre
+PUT_DOWN = 2.0              # error of manual placement, units from the centre
 
 
 def make_world(order, grid, disturbances, seed):
-    """Returns (world, {robot: cube})."""
+    """Makes the simulated world and its cubes and returns (world, {robot: cube})."""
     world = World(grid.mat, seed)
     hand = random.Random(f"start {seed}")
     cubes = {}
@@ -25,8 +25,10 @@ def make_world(order, grid, disturbances, seed):
 
 async def simulate(order, grid, disturbances=Disturbances(), seed=0, lifts=(), seconds=float("inf"), kind=Driver,
                    **options):
-    """Drives the order; returns (outcome, world). A lift is (robot, at, seconds) or (robot, at, seconds, point), where
-    the point is where the cube is put down."""
+    """Drives simulated cubes along the order and returns (outcome, world).
+
+    A lift is (robot, at, seconds), or (robot, at, seconds, point) to put the cube down at `point`.
+    """
     world, cubes = make_world(order, grid, disturbances, seed)
     world.lifts = [Lift(cubes[robot], *those) for robot, *those in lifts]
     running = asyncio.create_task(world.run())

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Simulated cube: exchanges the bytes of a real one, drives on two wheels, slips, stops short and loses messages.
+"""Simulates a cube, which exchanges the bytes of a real cube, drives on two wheels, slips, and loses messages.
 
-It follows the specification and assumes the worst where the specification is open: every journey ends up to 15
-units before its target.
+The simulation follows the specification. Where the specification leaves the behaviour open, it assumes the worst case:
+every journey ends up to 15 units before its target.
 """
 import asyncio
 import math
@@ -13,13 +13,13 @@ from . import protocol
 from .geometry import turn_between
 from .mat import MM
 
-# From the simulator of the toio SDK for Unity, whose authors measured it; not in the specification.
+# From the simulator of the toio SDK for Unity, whose authors measured the value; the specification does not state it.
 UNITS_PER_SPEED = 2.04      # units per second for one step of speed
 TREAD = 26.6 / MM           # distance between the wheels, units
-SENSOR_AHEAD = 3.0          # sensor before the centre, units, from the examples of the specification
-MISSED_AFTER = 0.07         # off the mat until the notification, seconds
-DELAYS = (0.010, 0.035)     # range of the delay of a message, seconds
-EASE_ANGLE, EASE_WAY = 40.0, 12.0   # degrees and units before the end at which it begins to brake
+SENSOR_AHEAD = 3.0          # distance of the sensor in front of the centre, units, from examples in the specification
+MISSED_AFTER = 0.07         # time off the mat until the notification, seconds
+DELAYS = (0.010, 0.035)     # range of message delays, seconds
+EASE_ANGLE, EASE_WAY = 40.0, 12.0   # remaining degrees and units at which the cube starts to brake
 
 
 class Disturbances(NamedTuple):
@@ -29,7 +29,7 @@ class Disturbances(NamedTuple):
 
 
 class _Driving:
-    """Rest of a journey."""
+    """Progress of a journey."""
 
     def __init__(self, journey, now, box):
         self.journey, self.index, self.begun, self.box = journey, 0, now, box
@@ -66,14 +66,14 @@ class SimulatedCube:
         pass
 
     async def write(self, data):
-        """Writes to the characteristic Motor, without response; the message may be lost."""
+        """Writes to the Motor characteristic without response. The message can be lost."""
         self.next_in = self._send(self.next_in, self._receive, bytes(data))
 
     async def configure(self, data):
         self.next_in = self._send(self.next_in, self._receive_configuration, bytes(data))
 
     def _send(self, not_before, handler, data):
-        """Delivers or loses a message; returns its time of arrival. Messages of one direction keep their order."""
+        """Delivers or loses a message and returns its arrival time. Messages in one direction keep their order."""
         if self.random.random() < self.disturbances.loss:
             return not_before
         loop = asyncio.get_running_loop()
@@ -205,7 +205,7 @@ class SimulatedCube:
         return (turning, -turning) if off > 0 else (-turning, turning)
 
     def _way_speeds(self, driving, dx, dy):
-        """Returns the wheel speeds. Movement type 2 turns first, then drives straight; others steer while driving."""
+        """Returns the wheel speeds. Movement type 2 turns before it drives straight; others steer while driving."""
         off = turn_between(self.angle, math.degrees(math.atan2(dy, dx)))
         speed = driving.journey.speed
         if driving.journey.movement == protocol.ROTATE_THEN_STRAIGHT:
@@ -225,7 +225,7 @@ class SimulatedCube:
         self.y += way * math.sin(math.radians(self.angle))
 
     def _grip(self, seconds, now):
-        """Returns the share of the wheels' way that the cube covers. A slip may turn the cube and end its motion."""
+        """Returns the share of the wheels' distance that the cube covers. A slip can turn the cube and end a motion."""
         if now >= self.slips_until and self.random.random() < self.disturbances.slip * seconds:
             self.slips_until = now + self.random.uniform(0.1, 0.6)
             self.angle += self.random.uniform(-12, 12)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Simulated mat with the true positions of the cubes and the least distance between two of them."""
+"""Simulates the mat: the true positions of the cubes, lifts, and the least distance between two cubes."""
 import asyncio
 import math
 import random
@@ -8,12 +8,12 @@ from .geometry import distance
 from .mat import BODY, MM
 
 TICK = 0.01
-SPREAD = 12                 # distance, per axis, at which a hand puts a cube back, units
-MOST_TICKS = 20             # maximum number of late ticks run at once on a busy machine
+SPREAD = 12                 # maximum distance per axis at which a hand puts a cube back, units
+MOST_TICKS = 20             # maximum number of late ticks that are run at once on a busy machine
 
 
 class Lift:
-    """A cube that a hand lifts at a time and puts back later, at a place or near its last position."""
+    """A lift: a hand lifts the cube at a time and puts it back later, at a given place or near its last position."""
 
     def __init__(self, cube, at, seconds, where=None):
         self.cube, self.at, self.until, self.where = cube, at, at + seconds, where
@@ -73,7 +73,7 @@ class World:
                 self.lifts.remove(lift)
 
     def _put_back(self, lift):
-        """Puts the cube back at a free position. Returns False if it found none."""
+        """Puts the cube back at a free position. Returns False if it finds none."""
         for _ in range(20):
             x, y = lift.where or [at + self.random.uniform(-SPREAD, SPREAD) for at in (lift.cube.x, lift.cube.y)]
             if self.on_mat(x, y) and all(distance((x, y), (c.x, c.y)) > BODY + 6

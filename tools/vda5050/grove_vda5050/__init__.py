@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Drives vehicles along a passing order by VDA 5050, the interface between fleet control and vehicles."""
+"""Drives vehicles along a passing order by VDA 5050, an interface between fleet control and vehicles."""

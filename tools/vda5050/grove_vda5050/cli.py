@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Command line of grove vda5050."""
+"""Implements the command line of grove vda5050."""
 import contextlib
 import functools
 import json
@@ -180,7 +180,7 @@ def _parser():
 
 
 class Setup:
-    """Topics, routes and message style, from the options and the passing order."""
+    """Topics, routes and message style, derived from the options and the passing order."""
 
     def __init__(self, a):
         self.topics = Topics(a.protocol, a.interface or a.protocol.interface, a.manufacturer)
@@ -209,7 +209,7 @@ class Setup:
         return given.get(name, readable(name))
 
     def headings(self):
-        """Returns the heading of each robot at its start, radians; 0 if the order has no headings."""
+        """Returns {robot: heading at its start in radians}; 0 if the order has no headings."""
         return {r.name: THETA.get(r.heading, 0.0) for r in self.order.robots}
 
 
@@ -249,11 +249,11 @@ def _orders(a):
 # ---- drive
 
 class _Drive:
-    """Fleet control on a connection to a broker."""
+    """Fleet control that is connected to a broker."""
 
     def __init__(self, a, setup, connection, clock, log, say):
         self.a, self.setup, self.connection, self.clock, self.say = a, setup, connection, clock, say
-        self.seconds = ()               # duration: (real seconds, vehicle seconds)
+        self.seconds = ()               # duration of the drive: (real seconds, vehicle seconds)
         topics = setup.topics
         headers = {name: Header(a.protocol, a.manufacturer, route.serial) for name, route in setup.routes.items()}
 
@@ -264,7 +264,7 @@ class _Drive:
                                Limits(a.base, a.horizon), send, clock, log, say)
 
     def step(self):
-        """Receives messages for TICK seconds and sends due orders. Returns whether all vehicles are done."""
+        """Receives messages for TICK real seconds and sends due orders. Returns whether all vehicles are done."""
         until = self.clock.real() + TICK
         while (left := until - self.clock.real()) > 0:
             try:
@@ -288,7 +288,7 @@ class _Drive:
             self.say(f"{self.clock.now():7.1f} s  {serial}: invalid {name} message: {error}")
 
     def run(self):
-        """Drives until all vehicles are done or the time limit. Returns whether all are done."""
+        """Drives until all vehicles are done or the time limit is reached. Returns whether all vehicles are done."""
         completed = self.step()
         while not completed and self.clock.real() <= self.a.time_limit:
             completed = self.step()
@@ -311,7 +311,7 @@ class _Drive:
 
 
 def _control_connection(broker, topics):
-    # States first, because the broker retains connection messages and delivers them at once.
+    # Subscribes to states first, because the broker delivers retained connection messages immediately.
     return Connection(broker, [(topics.topic("+", "state"), 0), (topics.topic("+", "connection"), 1)])
 
 
@@ -324,7 +324,7 @@ def _describe(a, setup):
 
 @contextlib.contextmanager
 def _log(a, setup):
-    """Yields a function that writes a line of the log. Yields None without --log."""
+    """Yields a function that writes a line of the log; without --log, yields None."""
     if not a.log:
         yield None
         return

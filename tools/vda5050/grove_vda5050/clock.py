@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""Clock with two times since the start of a drive: real seconds and vehicle seconds.
+"""Provides a clock with two times since the start of a drive: real seconds and vehicle seconds.
 
-Simulated vehicles may be faster than real ones. Plan, log and disturbances are in vehicle seconds.
+The times differ, because simulated vehicles can be faster than real vehicles. Plan, log and disturbances are in vehicle
+seconds.
 """
 import time
 
 
 class Clock:
     def __init__(self, pace=1.0, monotonic=time.monotonic):
-        """Starts the clock. pace: vehicle seconds per real second."""
+        """Starts the clock. `pace`: vehicle seconds per real second."""
         self.pace = pace
         self._monotonic = monotonic
         self._begin = monotonic()

@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: MIT
 """Fleet control: sends each vehicle along its route, as far as the passing order allows.
 
-Messages may be lost, late or out of order. So control infers from a message only what stays true: a node once
-reported stays reached, a finished action stays finished, and an update in a vehicle's state was received. Each
-vehicle has at most one unconfirmed update at a time. The next update continues the base that the vehicle has
-confirmed, and control sends it again until the vehicle's state contains its number.
+Messages can be lost, late or out of order. Therefore control infers from a message only facts that stay true: a node
+that was reported as reached stays reached, a finished action stays finished, and an update whose number is in a
+vehicle's state was received. Each vehicle has at most one unconfirmed update at a time. The next update continues the
+base that the vehicle has confirmed. Control resends an update until the vehicle's state contains its number.
 """
 from .route import actions_done
 
-RESEND_SECONDS = 3.0        # vehicle seconds
-SILENT_SECONDS = 40.0       # real seconds: vehicles send a state at least every 30
+RESEND_SECONDS = 3.0        # vehicle seconds until an unconfirmed update is sent again
+SILENT_SECONDS = 40.0       # real seconds; vehicles must send a state at least every 30 s
 
 
 class Limits:
-    """Number of nodes of a vehicle's base beyond its current node, and of the horizon beyond the base."""
+    """Maximum number of nodes of a vehicle's base after its current node, and of its horizon after the base."""
 
     def __init__(self, base, horizon):
         self.base, self.horizon = base, horizon
@@ -24,15 +24,15 @@ class Vehicle:
         self.route = route
         self.online = False
         self.heard = None           # time of the last state, real seconds
-        self.reached = -1           # node; -1: it has accepted no order yet
-        self.finished = set()       # ids of works
-        self.failed = {}            # {id of a failed work: True}
-        self.update = -1            # last update sent
-        self.released = -1          # last node of its base
-        self.confirmed = -1         # last update that the vehicle has confirmed
+        self.reached = -1           # last reached node; -1: the vehicle has not accepted an order yet
+        self.finished = set()       # ids of finished VDA 5050 actions
+        self.failed = {}            # {id of a failed VDA 5050 action: True}
+        self.update = -1            # number of the last update sent
+        self.released = -1          # last node of the vehicle's base
+        self.confirmed = -1         # number of the last update that the vehicle has confirmed
         self.message = None
         self.sent = None            # time of the last update, vehicle seconds
-        self.timestamp = ""         # of the latest state; older states do not change the fields below
+        self.timestamp = ""         # timestamp of the latest state; older states do not change the fields below
         self.errors = ()
         self.driving = self.working = self.lost = False
         self.at = self.theta = None
@@ -46,7 +46,8 @@ class Vehicle:
 class Control:
     """Controls all vehicles of an order.
 
-    send(vehicle, content) publishes an order; log(seconds, vehicle, ...) writes a line, in vehicle seconds.
+    send(vehicle, content) publishes an order. log(seconds, vehicle, ...) writes a line of the log at a time in vehicle
+    seconds.
     """
 
     def __init__(self, releases, style, order_id, limits, send, clock, log=None, say=lambda text: None):
@@ -98,7 +99,7 @@ class Control:
                 self.extend(other)
 
     def _read_errors(self, name, errors):
-        """Prints each error once."""
+        """Prints the errors of a state, each error once."""
         vehicle = self.vehicles[name]
         found = tuple(f"{e.get('errorType')}" + (f": {e['errorDescription']}" if e.get("errorDescription") else "")
                       for e in errors)
@@ -118,7 +119,7 @@ class Control:
     # ---- Orders to vehicles
 
     def extend(self, name):
-        """Sends the nodes that may be released now, unless an update is unconfirmed."""
+        """Sends the nodes that may now be released to a vehicle, unless an update is unconfirmed."""
         vehicle = self.vehicles[name]
         if not vehicle.online or vehicle.confirmed < vehicle.update:
             return
@@ -138,7 +139,7 @@ class Control:
         self.send(name, vehicle.message)
 
     def tick(self):
-        """Sends unconfirmed updates again. Call it several times per second."""
+        """Resends updates that have been unconfirmed for RESEND_SECONDS. Call it several times per second."""
         for name, vehicle in self.vehicles.items():
             if vehicle.confirmed < vehicle.update and self.clock.now() - vehicle.sent > RESEND_SECONDS:
                 self.resent += 1
@@ -165,7 +166,7 @@ class Control:
                      self.releases.done[name], self.state_of(name))
 
     def reasons(self):
-        """Yields for each vehicle that is not done the reason."""
+        """Yields, for each vehicle that is not done, the reason why not."""
         for name, vehicle in self.vehicles.items():
             if vehicle.completed:
                 continue

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Simulated vehicles, each with its own connection, and a world that records their true positions."""
+"""Simulates a fleet of vehicles, each with its own connection, and a world that records their true positions."""
 import heapq
 import itertools
 import json
@@ -11,21 +11,21 @@ from typing import NamedTuple
 from .protocol import Header
 from .vehicle import SimulatedVehicle
 
-TICK = 0.02                 # real seconds
-HEARTBEAT = 10.0            # real seconds between states without changes; VDA 5050 allows at most 30
-NEAR = 1.5                  # greater distances are not measured, cells
+TICK = 0.02                 # real seconds between two steps of the simulation
+HEARTBEAT = 10.0            # real seconds between states if nothing changes; VDA 5050 allows at most 30
+NEAR = 1.5                  # larger distances between vehicles are not measured, cells
 
 
 class Disturbances(NamedTuple):
-    """Disturbances; all times are vehicle seconds."""
+    """Disturbances of messages and vehicles. All times are vehicle seconds."""
     delayed: float = 0.0    # share of delayed messages, in each direction
     delay: float = 2.0      # maximum delay, seconds
     lost: float = 0.0       # share of lost messages, in each direction
-    stops: tuple = ()       # (robot, begin, duration): it stops
+    stops: tuple = ()       # (robot, begin, duration) of each stop
 
 
 class World:
-    """Records which vehicle holds which node; a vehicle on an edge holds both ends."""
+    """Records the nodes that each vehicle holds. A vehicle on an edge holds both ends."""
 
     def __init__(self, cell):
         self.cell = cell
@@ -63,16 +63,16 @@ class World:
 
 
 class Fleet:
-    """All vehicles of an order, each on its start. connect(topics, will, hello) returns a connection."""
+    """All vehicles of an order, initially on their starts. connect(topics, will, hello) returns a connection."""
 
     def __init__(self, connect, topics, routes, headings, cell, speed, turn_speed, disturbances, seed, clock):
         self.connect, self.topics, self.disturbances, self.clock = connect, topics, disturbances, clock
         self.random = random.Random(f"vehicles {seed}")
         self.world = World(cell)
-        self.due = []                   # (when, number, function, arguments)
+        self.due = []                   # heap of pending calls: (time, number, function, arguments)
         self.numbers = itertools.count()
         self.vehicles, self.connections = [], []
-        self.then = clock.now()         # time of the current state of the vehicles
+        self.then = clock.now()         # time up to which the vehicles are simulated, vehicle seconds
         self.sent_at = {}               # {vehicle: time of its last message, real seconds}
         self.delayed = self.lost = self.received = 0
         for route in routes.values():
@@ -133,7 +133,7 @@ class Fleet:
             self.step()
 
     def step(self):
-        """Simulates the time since the last step."""
+        """Simulates the time since the previous call."""
         now = self.clock.now()
         self._deliver(now)
         self._stop_and_go(now)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Writes orders of VDA 5050 for a route: the base (released nodes) and the horizon (nodes after it)."""
+"""Writes VDA 5050 orders for a route: the base (released nodes) and the horizon (nodes after the base)."""
 
 
 def _number(value):
@@ -7,12 +7,12 @@ def _number(value):
 
 
 def _angle(value):
-    return round(value, 5)      # 5 digits, so that it does not exceed pi
+    return round(value, 5)      # with 5 decimals a rounded pi does not exceed pi
 
 
 class Style:
-    """Writes orders. Parameters: protocol, map, allowed deviation from a reached node in metres, action types for work
-    and visits, and duration of a step of work."""
+    """Writes orders with common parameters: protocol, map, allowed deviation from a reached node in metres, action
+    types for tasks with duration ("work") and without ("visit"), and seconds per time step."""
 
     def __init__(self, protocol, map_id, deviation, work, visit, seconds_per_step):
         self.protocol, self.map_id, self.deviation = protocol, map_id, deviation
@@ -36,7 +36,7 @@ class Style:
                 "actions": [self.action(work) for work in node.works]}
 
     def edge(self, route, i, released):
-        """Returns the edge from node i to the next one."""
+        """Returns the edge from node i to node i + 1."""
         begin, end = route.nodes[i].id, route.nodes[i + 1].id
         edge = {"edgeId": f"{begin}-{end}", "sequenceId": 2 * i + 1, "released": released, "startNodeId": begin,
                 "endNodeId": end, "actions": []}
@@ -45,8 +45,8 @@ class Style:
         return edge
 
     def order(self, route, order_id, update, first, released, shown):
-        """Returns an order whose first node is `first`, the end of the vehicle's current base. The new base ends at
-        node `released`, the horizon at node `shown`."""
+        """Returns an order that starts with node `first`, the end of the vehicle's current base. The new base ends with
+        node `released`, the horizon with node `shown`."""
         return {"orderId": order_id, "orderUpdateId": update,
                 "nodes": [self.node(route, i, i <= released) for i in range(first, shown + 1)],
                 "edges": [self.edge(route, i, i < released) for i in range(first, shown)]}

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Runtime monitor: checks the messages, without any other input, and reports violations.
+"""Monitors a drive at run time: checks these properties, from the messages alone, and reports violations.
 
 1. Every message satisfies its published schema.
 2. No vehicle reports a node that was not released to it.
-3. The nodes released to a vehicle, from the last node that it reported to have reached, have no place in common with
-   those released to another vehicle. So vehicles that stay within their bases cannot meet, however late they are and
+3. Take, for each vehicle, its released nodes from the last node that it reported as reached. The nodes of two vehicles
+   have no place in common. Therefore vehicles that stay within their bases cannot meet, however late they are and
    whichever messages they have not received yet.
 """
 import json
@@ -18,7 +18,7 @@ SCHEMAS = Path(__file__).resolve().parent / "schemas"
 
 
 def load_validators(version):
-    """Returns {topic: validator}. Returns None without the module jsonschema."""
+    """Returns {topic: validator}. Returns None if the module jsonschema is not installed."""
     try:
         import jsonschema
     except ModuleNotFoundError:
@@ -33,9 +33,9 @@ def load_validators(version):
 class _Vehicle:
     def __init__(self):
         self.order = None
-        self.nodes = {}         # sequence number: id, of the released nodes
-        self.reached = 0        # sequence number
-        self.known_from = 0     # sequence number: earlier releases were not observed
+        self.nodes = {}         # {sequence number: id} of the released nodes
+        self.reached = 0        # sequence number of the last reached node
+        self.known_from = 0     # sequence number of the first node whose release was observed
 
 
 class Monitor:
@@ -43,9 +43,9 @@ class Monitor:
         self.topics, self.say = topics, say
         self.validators = load_validators(topics.protocol.version)
         self.vehicles = {}
-        self.claims = {}        # node id: {serial: sequence numbers}
+        self.claims = {}        # {node id: {serial: sequence numbers}} of released nodes
         self.messages = Counter()
-        self.finished = {}      # serial: ids of actions
+        self.finished = {}      # {serial: ids of finished actions}
         self.violations = 0
 
     def on_message(self, topic, payload):
@@ -63,7 +63,7 @@ class Monitor:
                 self._on_order(serial, message)
             elif name == "state":
                 self._on_state(serial, message)
-        except (KeyError, TypeError) as error:  # possible without schemas
+        except (KeyError, TypeError) as error:  # a malformed message, if schemas are not checked
             self.report(serial, name, f"{type(error).__name__}: {error}")
 
     def report(self, serial, name, text):
@@ -75,7 +75,7 @@ class Monitor:
         if self.validators is None:
             return isinstance(message, dict)
         if name not in self.validators:
-            return True     # topics that grove neither sends nor reads
+            return True     # no schema, because grove neither sends nor reads this topic
         error = next(self.validators[name].iter_errors(message), None)
         if error:
             place = "/" + "/".join(map(str, error.absolute_path))
@@ -127,7 +127,7 @@ class Monitor:
             return
         sequence = message["lastNodeSequenceId"]
         if sequence < max(vehicle.reached, vehicle.known_from):
-            return      # an old message, or one about nodes before the first observed order
+            return      # an old message, or a node before the first observed order
         if vehicle.nodes.get(sequence) != message["lastNodeId"]:
             self.report(serial, "state", f"is on {message['lastNodeId']}, node {sequence}, which was not released")
             return

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Connection to an MQTT broker, through paho (Debian: python3-paho-mqtt 1.6)."""
+"""Connects to an MQTT broker by paho (Debian: python3-paho-mqtt 1.6)."""
 import json
 import queue
 import threading
@@ -16,7 +16,7 @@ class Broker(NamedTuple):
     port: int
     username: str = None
     password: str = None
-    ca_file: str = None         # certificates to trust, with TLS
+    ca_file: str = None         # file of the certificates to trust with TLS
     tls: bool = False
 
     def __str__(self):
@@ -41,13 +41,13 @@ def encode(message):
 
 
 class Connection:
-    """Connection with received messages in `inbox`. Reconnects automatically."""
+    """A connection to a broker. Puts received messages into `inbox`, and reconnects automatically."""
 
     def __init__(self, broker, topics, will=None, hello=None):
         """Connects to the broker. Raises BadInput if it cannot be reached.
 
-        will: (topic, message) that the broker publishes when the connection is lost. hello: (topic, message) published
-        after each connect. Both are retained messages, so later subscribers receive them.
+        will: (topic, message) that the broker publishes when the connection is lost. hello: (topic, message) that the
+        client publishes after each connect. Both messages are retained, so that later subscribers receive them.
         """
         paho = _paho()
         self.inbox = queue.SimpleQueue()

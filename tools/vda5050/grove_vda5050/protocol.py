@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The two supported versions of VDA 5050 (https://github.com/VDA5050/VDA5050) and their differences.
+"""Describes the two supported versions of VDA 5050 (https://github.com/VDA5050/VDA5050) and their differences.
 
-Other modules write only the parts of a message that both versions have in common.
+All differences are in this module; other modules write only the parts of messages that both versions have in common.
 """
 from datetime import datetime, timezone
 from typing import NamedTuple
@@ -10,11 +10,11 @@ from typing import NamedTuple
 class Protocol(NamedTuple):
     version: str            # value of the key "version"
     interface: str          # first level of topics, as the standard suggests for a local broker
-    lost: str               # connectionState of a vehicle that lost its connection
-    position: str           # key of a vehicle's position
-    localized: str          # key of the flag that the vehicle knows its position
-    turns_on_node: dict     # keys of an edge: the vehicle turns on the node before, not on the edge
-    deviation: object       # function: metres -> allowedDeviationXY
+    lost: str               # connectionState of a vehicle that has lost its connection
+    position: str           # key of the vehicle's position
+    localized: str          # key of the flag that says whether the vehicle knows its position
+    turns_on_node: dict     # keys of an edge which say that the vehicle turns on the node before the edge
+    deviation: object       # function: metres -> value of allowedDeviationXY
     power: tuple            # keys of the battery and of its charge
     emergency_stop: str     # key of the safety state
 
@@ -42,7 +42,7 @@ class Topics(NamedTuple):
 
 
 class Header:
-    """Message headers of one topic, with consecutive numbers."""
+    """Creates the message headers for one topic, with consecutive numbers."""
 
     def __init__(self, protocol, manufacturer, serial):
         self.fixed = {"version": protocol.version, "manufacturer": manufacturer, "serialNumber": serial}

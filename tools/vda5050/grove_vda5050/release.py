@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Determines the last node of its route that each vehicle may be sent to.
+"""Determines, for each vehicle, the last node of its route that may be released to it.
 
-A released base cannot be taken back. So a node is released only when its vehicle may drive there and do all actions
-there without further conditions: for every action up to the next move, the action that it waits for is reported as
-completed. By the passing order, no other vehicle is then on that place, drives there, or may be sent there before
-this vehicle has left it, because the others wait for that. (Waits that the order omits follow from waits of earlier
-actions of the same robot. These are completed, too, and so are the actions that they waited for.) Hence nodes
-released to different vehicles never have a place in common, counted from the last node that each vehicle reported
-to have reached. `watch` checks this without using the order.
+A released base cannot be taken back. Therefore a node is released only when its vehicle may drive there and do all
+actions there without further conditions, that is, when for every action up to the next move the action for which it
+waits has been reported as completed. Then, by the passing order, no other vehicle is on that place or drives there, and
+none may be sent there before this vehicle has left it, because the other vehicles wait for that. (Waits that the order
+omits follow from waits of earlier actions of the same robot, whose predecessors are completed, too.) Consequently the
+nodes released to different vehicles, each counted from the last node that the vehicle reported as reached, never have
+a place in common. `grove vda5050 watch` checks this without using the order.
 """
 
 
@@ -16,13 +16,13 @@ class Releases:
         self.robots = {robot.name: robot for robot in order.robots}
         self.routes = routes
         self.done = dict.fromkeys(routes, 0)
-        self.allowed = dict.fromkeys(routes, -1)    # the last node that may be released
-        self.waiting = {}                           # robot: names of the robots that wait for one of its actions
+        self.allowed = dict.fromkeys(routes, -1)    # {robot: last node that may be released}
+        self.waiting = {}                           # {robot: names of the robots that wait for one of its actions}
         for name in routes:
             self._advance(name)
 
     def waits_for(self, name):
-        """Returns the (robot, action) that blocks the node after the last allowed one. Returns None if none does."""
+        """Returns the (robot, action) for which the node after the last allowed node waits. Returns None if none."""
         route, following = self.routes[name], self.allowed[name] + 1
         if following > route.last:
             return None
@@ -41,7 +41,7 @@ class Releases:
             self.allowed[name] += 1
 
     def complete(self, name, done):
-        """Records that `done` actions of a robot are completed. Returns the robots that may now drive further."""
+        """Records that a robot has completed `done` actions. Returns the robots that may now drive further."""
         if done <= self.done[name]:
             return []
         self.done[name] = done

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Converts a robot's part of the passing order to nodes, edges and actions of VDA 5050.
 
-Each place of the robot is a node, and each move is an edge. Work and visits on a place, before the next move, are
-actions of that node. They do not wait for other robots (only moves do), so a vehicle that may drive to a node may do
-all actions there. Turns are not actions, because VDA 5050 has no such action. Instead, each edge of a robot with
-headings has `orientation` 0, tangential, to be reached on the node before, and its last node has `theta`, its
-final heading.
+Each place of the robot becomes a node, and each move an edge. Task executions and visits on a place before the next
+move become actions of its node. They do not wait for other robots (only moves do), so a vehicle that may drive to a
+node may do all actions there. Turns do not become actions, because VDA 5050 has no action for them. Instead, each edge
+of a robot with headings has `orientation` 0 (tangential), which the vehicle must reach on the node before the edge, and
+the last node has the final heading as `theta`.
 
 Nodes have even and edges odd sequence numbers, as VDA 5050 requires.
 """
@@ -21,7 +21,7 @@ ALLOWED = set("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.
 
 class Work(NamedTuple):
     id: str
-    kind: str               # work or visit
+    kind: str               # "work" (task with duration) or "visit"
     task: str
     steps: int
 
@@ -29,12 +29,12 @@ class Work(NamedTuple):
 class Node(NamedTuple):
     id: str
     place: tuple            # place in the passing order
-    at: tuple               # metres
-    begin: int              # first action of the passing order that is done on it
-    end: int                # one after its last action
-    works: tuple            # Works on it, in order
-    works_at: tuple         # by action from begin to end: number of works done at the end of the action
-    theta: float            # final heading; None: not the last node, or no headings
+    at: tuple               # (x, y) in metres
+    begin: int              # index of the first action of the passing order that is done on the node
+    end: int                # index after its last action
+    works: tuple            # Works (VDA 5050 actions) on the node, in order
+    works_at: tuple         # for each action from begin to end, the number of works done when the action ends
+    theta: float            # final heading, radians; None if it is not the last node, or without headings
 
 
 class Route(NamedTuple):
@@ -58,7 +58,7 @@ def node_id(place):
 
 
 def _works(number, visits, actions):
-    """Returns (works of a node, number of works done at the end of each of its actions)."""
+    """Returns (Works of a node, number of Works done at the end of each of its passing-order actions)."""
     those = [("visit", task, 0) for task in visits]
     done = []
     for action in actions:
@@ -83,8 +83,11 @@ def make_route(robot, serial):
 
 
 def actions_done(route, reached, finished):
-    """Returns the number of actions of the passing order that a vehicle has completed, given the last node that it
-    reached and the ids of its finished works. A turn counts as soon as a later work is finished or node reached."""
+    """Returns the number of passing-order actions that a vehicle has completed.
+
+    reached: last node that it reached. finished: ids of its finished Works. A turn counts as completed as soon as a
+    later Work is finished or a later node is reached.
+    """
     node = route.nodes[reached]
     count = 0
     while count < len(node.works) and node.works[count].id in finished:
@@ -100,7 +103,7 @@ def actions_done(route, reached, finished):
 
 
 def check_order(file, order):
-    """Raises BadInput if vehicles cannot drive the order."""
+    """Raises BadInput if vehicles cannot drive along the order."""
     places = {}
     for i, robot in enumerate(order.robots):
         if robot.at is None or any(action.at is None for action in robot.actions):

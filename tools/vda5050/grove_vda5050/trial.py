@@ -26,7 +26,7 @@ def _free_port():
 
 @contextlib.contextmanager
 def own_broker():
-    """Runs mosquitto on the loopback address; yields its Broker."""
+    """Runs mosquitto on the loopback address and yields its Broker."""
     program = shutil.which("mosquitto") or (MOSQUITTO if Path(MOSQUITTO).exists() else None)
     if not program:
         raise BadInput("trial: mosquitto was not found; expected the Debian package mosquitto")
@@ -66,14 +66,14 @@ def own_vehicles(program, arguments):
 
 
 def end_vehicles(process):
-    """Terminates the vehicles; returns (exit code, output)."""
+    """Terminates the vehicles and returns (exit code, output)."""
     process.send_signal(signal.SIGTERM)
     text, _ = process.communicate(timeout=60)
     return process.returncode, text
 
 
 def monitor_connection(broker, topics):
-    """Returns a connection that receives all messages."""
+    """Returns a connection that receives all messages of all vehicles."""
     connection = Connection(broker, [(topics.topic("+", "+"), 0)])
     connection.await_subscription()
     return connection

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Simulated vehicle: accepts orders, refuses those that do not continue its current one, drives only along its base,
-and publishes its state. (VDA 5050 2.1.0, 6.6.2 and figure 8; 3.0.0, 6.1.2.)"""
+"""Simulates a vehicle, which accepts orders, drives only along its base and publishes its state.
+
+It refuses orders that do not continue its current order (VDA 5050 2.1.0, 6.6.2 and figure 8; 3.0.0, 6.1.2).
+"""
 import math
 
 from .protocol import Header
@@ -10,7 +12,7 @@ ALIGNED = 1e-6
 
 
 class Refused(Exception):
-    """An order is refused. kinds: error type in version 2.1.0 and in 3.0.0."""
+    """An order is refused. `kinds`: error types in versions 2.1.0 and 3.0.0."""
 
     def __init__(self, kinds, why):
         super().__init__(why)
@@ -29,7 +31,8 @@ def turn_between(angle, goal):
 
 
 class SimulatedVehicle:
-    """A vehicle. publish(topic, message) sends; world.enter(vehicle, node) and world.leave() receive its position."""
+    """A simulated vehicle. publish(topic, message) sends a message; world.enter() and world.leave() receive its nodes.
+    """
 
     def __init__(self, protocol, name, manufacturer, serial, at, theta, world, publish, speed=1.0,
                  turn_speed=math.pi / 2):
@@ -40,12 +43,12 @@ class SimulatedVehicle:
         self.speed, self.turn_speed = speed, turn_speed
         self.header = Header(protocol, manufacturer, serial)
         self.order_id, self.update = "", 0
-        self.nodes, self.edges = [], []         # still to drive: base, then horizon
+        self.nodes, self.edges = [], []         # nodes and edges ahead: first base, then horizon
         self.base_end = None                    # (id, sequence number) of the last released node
-        self.last = ("", 0)                     # (id, sequence number) of its last node
-        self.to_do = []                         # open actions of that node
+        self.last = ("", 0)                     # (id, sequence number) of the last reached node
+        self.to_do = []                         # actions left on that node
         self.action_states = {}                 # {id: [type, status]}
-        self.left = None                        # remaining seconds of the running action
+        self.left = None                        # remaining seconds of the running action, or None
         self.errors = []
         self.driving = False
         self.on_edge = False
@@ -124,7 +127,7 @@ class SimulatedVehicle:
     # ---- Motion
 
     def tick(self, seconds):
-        """Simulates `seconds` of acting and driving, one after the other."""
+        """Simulates `seconds` seconds, in which the vehicle does actions and drives, one after the other."""
         while seconds > 1e-9 and not self.stopped:
             if self.to_do:
                 seconds = self._act(seconds)
@@ -186,7 +189,7 @@ class SimulatedVehicle:
         return seconds - used
 
     def _turn(self, goal, seconds):
-        """Turns; returns the seconds left. Returns None if it already has this heading."""
+        """Turns to a heading and returns the seconds left. Returns None if the vehicle already has this heading."""
         off = turn_between(self.theta, goal)
         if abs(off) < ALIGNED:
             return None
@@ -210,7 +213,7 @@ class SimulatedVehicle:
     # ---- State
 
     def position(self):
-        theta = round(turn_between(0.0, self.theta), 5)     # -3.14159 is still within the limits
+        theta = round(turn_between(0.0, self.theta), 5)     # 5 decimals, because -3.14159 is within the limits
         return {"x": round(self.x, 4), "y": round(self.y, 4), "theta": theta, "mapId": self.map_id,
                 self.protocol.localized: True}
 
