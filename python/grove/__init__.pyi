@@ -18,7 +18,7 @@ __all__ = [
 __version__: str
 
 _Path = Union[str, os.PathLike[str]]
-# (x, y) of a grid; "A", a vertex; ("A", "B", steps), on a road.
+# A cell (x, y), a vertex "A", or a place on a road ("A", "B", steps[, edge]).
 _Place = Union[Sequence[int], str, tuple[str, str, int], tuple[str, str, int, int]]
 
 class Error(Exception): ...
