@@ -18,9 +18,9 @@ struct Call {
   std::stop_source source;
 };
 
-// Runs `solve` on another thread and returns its result or rethrows its exception. The calling
-// thread checks for signals and for call.stop in the meantime, and stops the search when one of
-// them is set. If a signal handler raises an exception, this function rethrows it.
+// Runs `solve` on another thread and returns its result or rethrows its exception. In the meantime
+// the calling thread runs Python's signal handlers and polls call.stop. It stops the search if
+// call.stop is set or a signal handler raises an exception, which it rethrows.
 Solution run_aside(Call& call, const std::function<Solution()>& solve);
 
 }  // namespace grove::python

@@ -79,8 +79,8 @@ struct ViewArguments {
   std::string output;
   bool open = false;
   std::string run;    // log of a run, instead of an instance
-  std::string drive;  // log of an execution of the first plan
-  std::string proof;  // certificate
+  std::string drive;  // log of an execution of the plan
+  std::string proof;  // certificate of a lower bound
   bool follow = false;
   std::int64_t port = 0;
   PictureOrder pictures;

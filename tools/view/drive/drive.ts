@@ -15,7 +15,7 @@ export function needsHelp(state: number): boolean {
   return kStates[state] === "lifted" || kStates[state] === "lost";
 }
 
-// Signs beside robots, so that colour is not the only sign of a state. A moving robot has none.
+// Signs beside robots, so that states are recognisable without colours. A moving robot has none.
 const kMarks: Record<State, string> = {
   waiting: "…", moving: "", working: "↻", lifted: "↑", lost: "?", done: "✓",
 };
@@ -30,9 +30,9 @@ const kFirst = 64;
 export class Sightings {
   count = 0;
   times = new Float64Array(kFirst); // seconds, ascending
-  xs = new Float32Array(kFirst); // in the world's units
+  xs = new Float32Array(kFirst); // in world units
   ys = new Float32Array(kFirst);
-  angles = new Float32Array(kFirst); // clockwise from up, radians; NaN: not known
+  angles = new Float32Array(kFirst); // clockwise from up, radians; NaN: unknown
   actions = new Int32Array(kFirst); // number of completed actions
   states = new Uint8Array(kFirst); // indices into kStates
   private last = 0;

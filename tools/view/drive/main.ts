@@ -116,7 +116,7 @@ function show(app: DriveApp, strip: Strip): void {
     requestAnimationFrame(tick);
   };
   requestAnimationFrame(tick);
-  // Tests read this.
+  // For tests: the state of the page.
   Object.assign(window, { grove: { app, stages: [stage] } });
 }
 

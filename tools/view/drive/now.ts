@@ -7,8 +7,10 @@ import type { Model } from "../page/model";
 import type { RobotsNow } from "../page/robots_now";
 import { kStates, markOf, needsHelp, type Drive, type State } from "./drive";
 
-const kBrief = 0.15; // seconds within which a change is logged: maximum duration of the motion of a standing robot
-const kLongest = 10; // seconds: maximum interval between observations of a moving robot, hence of its motion
+// The log has a change of state within kBrief seconds, and a moving robot at least every kLongest seconds. A
+// motion before an observation is therefore assumed to take no longer.
+const kBrief = 0.15;
+const kLongest = 10;
 
 const kDoing: Record<State, Doing> = {
   waiting: Doing.kWaiting, moving: Doing.kMoving, working: Doing.kWorking, done: Doing.kResting,
@@ -67,7 +69,7 @@ export class DriveNow implements RobotsNow {
     const end = times[at + 1];
     const longest = kStates[states[at]] === "moving" ? kLongest : kBrief;
     const begin = Math.max(times[at], end - longest);
-    // Also holds before the first observation, where `begin` and `end` may be equal.
+    // `time` may be before the first observation, where `begin` and `end` can be equal.
     if (time <= begin) return 0;
     return Math.min(1, (time - begin) / (end - begin));
   }

@@ -6,7 +6,7 @@ import { Player } from "../page/player";
 
 const kBehind = 1; // seconds by which a live display lags behind the log, so that it does not wait for data
 const kTooFar = 3; // seconds of deviation from this lag, above which the display jumps
-const kSlowest = 0.25; // seconds per second; above 0, so that the display reaches the end of a log that no longer grows
+const kSlowest = 0.25; // seconds per second; positive, so that the display reaches the end of a log that stops growing
 
 export class DrivePlayer extends Player {
   live: boolean;

@@ -51,8 +51,8 @@ export class App {
     for (const listener of this.listeners) listener();
   }
 
-  // Continues, for about this time, the computations that take longer than a frame: first the search for
-  // violations, then that for the causes of waits.
+  // Continues the computations that take longer than a frame, for about this time: first the search for
+  // violations, then the search for the causes of waits.
   work(milliseconds: number): void {
     const task = this.viewed.find(({ checker }) => !checker.done)?.checker ??
       this.viewed.find(({ waits }) => !waits.done)?.waits;

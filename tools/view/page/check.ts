@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finds the violations of a plan, from the contract (docs/design.md, sections 1 and 5) and the data of the
 // page only. It checks first each robot by itself, then collisions, then the claims of the file. The page
-// shows no other verdict.
+// relies on no other verdict.
 
 import { Crowd, type ReportCollision } from "./crowd";
 import { finish } from "./facts";
@@ -21,9 +21,9 @@ export interface Violation {
 }
 
 const kMost = 1000; // violations, after which the search stops
-const kStepsAtOnce = 2048; // steps of one robot between two looks at the clock
+const kStepsAtOnce = 2048; // steps of one robot between two checks of the elapsed time
 
-// Returns all violations, but at most about kMost, in order of time.
+// Returns all violations, but at most kMost, in order of time.
 export function check(model: Model, plan: Plan): Violation[] {
   const checker = new Checker(model, plan);
   while (!checker.step(1000));
@@ -277,8 +277,8 @@ class AgentCheck {
         `does not continue ${this.model.tasks[working.task].name}, at which it starts`, -1);
   }
 
-  // Reports executions of different tasks at the same time. In order of their begins, each one is compared
-  // only with the earlier one that ends last.
+  // Reports executions of different tasks at the same time. In order of their start times, it compares
+  // each execution only with the earlier one that ends last.
   private checkOverlaps(): void {
     let longest: WorkTime | null = null;
     for (const piece of [...this.plan.work].sort((a, b) => a.begin - b.begin || a.end - b.end)) {
@@ -378,8 +378,8 @@ class AgentCheck {
     this.checkLastOfOrder(order);
   }
 
-  // Reports a robot without a destination that does not rest on the last task of its order. If a task of the
-  // robot takes time, it may rest on any of its tasks.
+  // Reports a robot without a destination that does not rest on the last task of its order. If one of its
+  // tasks takes time, the robot may rest on any of them.
   private checkLastOfOrder(order: number[]): void {
     const { goal, tasks } = this.agent;
     if (goal >= 0 || order.length === 0) return;

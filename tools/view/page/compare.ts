@@ -47,8 +47,8 @@ export function partingTime(a: AgentPlan, b: AgentPlan): number {
   return Math.min(places, turns, partingOfWork(a, b));
 }
 
-// Returns the first time at which the values of two tracks differ; Infinity: never. Compares only at the
-// begins of runs, because from there on equal steps keep equal values equal until a run ends.
+// Returns the first time at which the values of two tracks differ; Infinity: never. Compares only where
+// a run starts, because from there on equal steps keep equal values equal until a run ends.
 function parting<T extends Track | TurnTrack>(
   a: T, b: T, value: (track: T, time: number) => number,
 ): number {

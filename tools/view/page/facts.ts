@@ -113,7 +113,7 @@ export function visitTime(model: Model, plan: AgentPlan, task: number): number {
 export interface TaskFacts {
   agents: number[]; // in order of their visits
   times: number[]; // of the visits, ascending; Infinity: never
-  begin: number; // time of the first visit, or earlier begin of an execution; Infinity: never
+  begin: number; // time of the first visit or, if earlier, start of the first execution; Infinity: never
 }
 
 export interface PlanFacts {
@@ -150,7 +150,7 @@ export function visitsBy(facts: TaskFacts, time: number): number {
 
 export interface Visit {
   task: number;
-  begin: number; // begin of the execution, at least 0; without an execution, equal to `time`
+  begin: number; // start of the execution, at least 0; without an execution, equal to `time`
   time: number; // of the visit; Infinity: never
 }
 

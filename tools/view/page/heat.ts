@@ -30,7 +30,7 @@ function addWaits(heat: Float32Array, { plan, facts }: Viewed): void {
   });
 }
 
-// Counts, for each place, the waits without which the robot would have met its first other robot there.
+// Counts, for each place, the waits without which the waiting robot would first have met another one there.
 function addYields(heat: Float32Array, { waits }: Viewed): void {
   for (const wait of waits.all) if (wait.meets >= 0) ++heat[wait.meets];
 }

@@ -27,8 +27,8 @@ export function linkOf(app: Linked): string {
   return "#" + parameters.toString();
 }
 
-// Applies the address now and whenever it changes. Updates it to the current state once that has not changed
-// for kSettled, so not in every frame while the plan plays.
+// Applies the address now and whenever it changes. Updates it to the current state after kSettled without a
+// change, and therefore not in every frame while the plan plays.
 export function linkPage(app: Linked & { onChange(listener: () => void): void }): void {
   let timer = 0;
   app.onChange(() => {

@@ -102,7 +102,7 @@ function run(app: App): void {
     requestAnimationFrame(tick);
   };
   requestAnimationFrame(tick);
-  // For tests: the state, and the milliseconds that the page spent in each of the last frames.
+  // For tests: the state, and the milliseconds that the page took for each of the last frames.
   Object.assign(window, { grove: { app, stages, frames } });
 }
 

@@ -31,7 +31,7 @@ export interface World {
   vertexNames: string[]; // of a roadmap
   mayMove(from: number, to: number): boolean; // whether this is a possible move of one step
   place(place: number): string; // the name of a place, for texts
-  drawn(x: number, y: number): Point; // converts cells (centres are integers) or metres of the file
+  drawn(x: number, y: number): Point; // world position of cells (integer centres) or metres of the file
 }
 
 export interface Agent {

@@ -26,7 +26,7 @@ export class Player {
     this.time = Math.min(this.end, Math.max(0, time));
   }
 
-  // Pauses, and moves to a whole step, `by` steps away.
+  // Pauses, and moves to a whole step, `by` steps forward (or back, if negative).
   step(by: number): void {
     this.playing = false;
     const from = by > 0 ? Math.floor(this.time) : Math.ceil(this.time);

@@ -7,7 +7,7 @@ import type { Angle } from "./model";
 // the run is a single step to places[i + 1], which need not be possible in the world.
 export class Track {
   constructor(
-    readonly times: Int32Array, // begin of each run, then the end of the last one
+    readonly times: Int32Array, // start of each run, then the end of the last one
     readonly places: Int32Array, // place at each of `times`
     readonly deltas: Int32Array, // by run: change of place per step
     readonly jumps: Uint8Array,

@@ -18,7 +18,7 @@ export interface Wait {
 
 const kMostGhosts = 8; // maximum number of ghosts per wait
 const kAhead = 40; // steps for which a ghost is followed
-const kGhostsAtOnce = 8192; // steps of ghosts between two looks at the clock
+const kGhostsAtOnce = 8192; // steps of ghosts between two checks of the elapsed time
 
 // A ghost takes the steps that its robot takes after the wait, `earlier` steps earlier.
 interface Ghost {
@@ -95,8 +95,8 @@ export class Waits {
     ghost.until = isAtRest ? Infinity : track.times[run + 1];
   }
 
-  // Returns the ghosts of a wait. They leave at times that are spread evenly over the wait, from its begin
-  // on.
+  // Returns the ghosts of a wait. They leave at times that are spread evenly over the wait, the first of
+  // them at its start.
   private ghostsOf(wait: Wait): Ghost[] {
     const { track } = this.plan.agents[wait.agent];
     const steps = wait.end - wait.begin;

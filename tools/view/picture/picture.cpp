@@ -29,7 +29,7 @@ using Surface = std::unique_ptr<cairo_surface_t, Free>;
 using Context = std::unique_ptr<cairo_t, Free>;
 
 constexpr int kGap = 12;           // pixels between two moments
-constexpr int kMaxPixels = 30000;  // maximum width and height: cairo's limit
+constexpr int kMaxPixels = 30000;  // maximum width and height; cairo's limit is 32767
 constexpr int kCaption = 20;       // height of the caption below each moment
 constexpr int kLegend = 26;        // height of the legend at the bottom
 constexpr int kMinWidthWithLegend = 640;

@@ -22,8 +22,8 @@ export interface Row {
   price: number; // multiplier, in 1024ths of a step
 }
 
-// A node of the tree of a proof. It proves the statement under additional constraints: those that lead from
-// the root to this step, one side of each split above it.
+// A node of a proof tree. It proves the statement under additional constraints: one side of each split above
+// it, on the way from the root.
 export interface Step {
   line: number;
   kind: "leaf" | "split" | "later" | "joint" | "prices";

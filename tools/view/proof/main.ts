@@ -52,7 +52,7 @@ function show(app: ProofApp): void {
     requestAnimationFrame(tick);
   };
   requestAnimationFrame(tick);
-  // Tests read this.
+  // For tests: the state of the page.
   Object.assign(window, { grove: { app, stages: [stage] } });
 }
 

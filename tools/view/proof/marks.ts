@@ -15,7 +15,7 @@ const kHalf = 0.46; // half the side of the square on a place, in steps
 const kLeastWritten = 24; // half side in pixels, from which on times are written in the square
 
 // Returns the constraints that the map marks: both sides of a split, otherwise the constraint that leads to
-// the step, and at the root of another kind those of the statement.
+// the step or, at the root, the constraints of the statement.
 export function constraintsShown({ step, statement }: ProofApp): Constraint[] {
   if (step.sides.length > 0) return step.sides;
   const constraint = constraintOf(step);
@@ -108,7 +108,7 @@ export class Marks implements PathPainter {
   }
 }
 
-// Writes a text at the upper edge of a square, above the agent there, or beside a small square, on a side
+// Writes a text at the upper edge of a square, above the agent there, or beside a small square, on the side
 // with space.
 function paintText(
   c: CanvasRenderingContext2D, camera: Camera, { x, y }: Point, text: string, half: number, colors: Colors,

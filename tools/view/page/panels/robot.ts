@@ -81,7 +81,7 @@ export class RobotDetails {
     return [el("h4", { class: kind }, title), moments(this.app, things, tell)];
   }
 
-  // Returns the entry of a visit. Its time is that of the visit or, if the task has a duration, the begin of
+  // Returns the entry of a visit. Its time is that of the visit or, if the task has a duration, the start of
   // its execution.
   private visit({ task, begin, time }: Visit): Moment {
     const { duration, name } = this.app.model.tasks[task];

@@ -30,8 +30,8 @@ function names(app: App, agents: number[]): string {
   return agents.length > 20 ? `${some} and ${plural(agents.length - 20, "more")}` : some;
 }
 
-// Returns a text such as "2 of 3": the number of robots that have visited the task, and of those that must.
-// For two plans, the first number is one per plan: "2 / 1 of 3".
+// Returns a text such as "2 of 3": 2 of the 3 robots that must visit the task have visited it. For two plans
+// it has one number for each: "2 / 1 of 3".
 export function progressText(app: App, task: number): string {
   const total = app.model.tasks[task].agents.length;
   const counts = app.viewed.map(({ facts }) => visitsBy(facts.tasks[task], app.player.time));
