@@ -20,7 +20,7 @@ export interface Row {
   open: number; // number of open nodes
   bound: number; // lower bound
   incumbent: number | null; // cost of the best plan; null: none
-  memory: number; // of the process, in megabytes
+  memory: number; // in megabytes
   source: string; // only for an incumbent: the method that found it
   raisedBy: Map<string, number>; // increase of the lower bound since the previous row, by source
 }
