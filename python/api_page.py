@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Makes docs/python-api.md from the stubs (names, signatures) and the docstrings.
+"""Prints docs/python-api.md, made from the stubs (names and signatures) and the docstrings.
 
     api_page.py PACKAGE_DIR > docs/python-api.md
 
-PACKAGE_DIR: build/release/python. A test fails if the page is out of date.
+PACKAGE_DIR: directory of the built package grove, such as build/release/python.
+A test fails if the page is out of date.
 """
 import ast
 import inspect
@@ -46,7 +47,7 @@ def parameter(argument, default=None, star=""):
 
 
 def parameters(arguments):
-    """Returns the parameters as in a definition, without self."""
+    """Returns the parameters as written in a definition, without self."""
     needed = len(arguments.args) - len(arguments.defaults)
     found = [parameter(argument, default)
              for argument, default in zip(arguments.args, [None] * needed + arguments.defaults)
@@ -59,7 +60,7 @@ def parameters(arguments):
 
 
 def signature(name, node):
-    """Returns the signature, in as few lines of WIDTH columns as possible."""
+    """Returns the signature in as few lines of at most WIDTH columns as possible."""
     result = code_text(node.returns)
     tail = ")" + (f" -> {result}" if result != "None" else "")
     parts = parameters(node.args)
@@ -82,7 +83,7 @@ def doc_of(thing, name):
 
 
 def markdown(text):
-    """Converts a docstring to Markdown: `name: text` lines become a list, paragraphs that begin with >>> code."""
+    """Converts a docstring to Markdown. `name: text` lines become list items, paragraphs that start with >>> code."""
     blocks = []
     for paragraph in re.split(r"\n\s*\n", text):
         if paragraph.startswith(">>>"):

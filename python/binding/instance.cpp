@@ -6,7 +6,7 @@
 namespace grove::python {
 namespace {
 
-// Issues the warnings of a reader as Python warnings.
+// Returns the instance that `read` returns, and issues its warnings as Python UserWarnings.
 template <class Read>
 Instance warned(Read&& read) {
   std::vector<std::string> warnings;
@@ -16,9 +16,10 @@ Instance warned(Read&& read) {
   return instance;
 }
 
-// Makes an instance from the content of a file as Python values, including NumPy values.
+// Makes an instance from a dict in the format of *.cts.json files. The values may be NumPy arrays
+// and scalars.
 Instance of_dict(const World& world, const py::dict& all, bool following) {
-  const py::object plain = py::module_::import("grove").attr("_plain");  // for NumPy values
+  const py::object plain = py::module_::import("grove").attr("_plain");  // converts NumPy values
   const auto text = py::module_::import("json")
                         .attr("dumps")(all, py::arg("default") = plain)
                         .cast<std::string>();
@@ -66,7 +67,8 @@ void add_instance(py::module_& module) {
       .def(
           "write",
           [](const Instance& i, const std::filesystem::path& path) { write_instance(path, i); },
-          py::arg("path"), "Writes *.cts.json, and its map or roadmap to the same directory.")
+          py::arg("path"),
+          "Writes a *.cts.json file, and the map or roadmap to the same directory.")
       .def("__repr__", &instance_summary);
   module.def("_instance_of_dict", &of_dict);
   module.def(
@@ -83,7 +85,7 @@ void add_instance(py::module_& module) {
       "`memory_limit` it refuses an instance whose map and robot states would need more bytes.");
   module.def("read_scenario", &read_scenario, py::arg("scenario"), py::arg("map"),
              py::arg("agents"),
-             "Reads classical MAPF: the first `agents` rows of a Moving AI scenario.");
+             "Reads a classical MAPF instance: the first `agents` rows of a Moving AI scenario.");
 }
 
 }  // namespace grove::python

@@ -8,7 +8,7 @@
 namespace grove::python {
 namespace {
 
-// Python classes of the exceptions of the library. Never freed.
+// Python exception classes for the exceptions of the library. Never freed.
 struct Errors {
   py::object base;
   py::object input;
@@ -39,13 +39,13 @@ void add_errors(py::module_& module) {
   errors = new Errors;
   errors->base =
       error_class(module, "Error", py::make_tuple(exception),
-                  "Base class of the errors of Grove. Raised itself only for an internal error.");
-  errors->input =
-      error_class(module, "InputError", py::make_tuple(errors->base, value_error),
-                  "An invalid file or text; the message has the place and what was expected.");
+                  "Base class of Grove's errors. Raised directly only for an internal error.");
+  errors->input = error_class(
+      module, "InputError", py::make_tuple(errors->base, value_error),
+      "An invalid file or text; the message states the position and what was expected.");
   errors->argument = error_class(
       module, "InvalidArgument", py::make_tuple(errors->base, value_error),
-      "An invalid world, instance, plan or option; field is its place, such as '/omega'.");
+      "An invalid world, instance, plan or option; field locates it, such as '/omega'.");
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
@@ -62,7 +62,7 @@ void add_errors(py::module_& module) {
 }  // namespace
 
 PYBIND11_MODULE(_grove, module) {
-  // With this name, classes print as members of the package grove.
+  // Classes that are added under this name print as members of the package grove.
   module.attr("__name__") = "grove";
   module.attr("__version__") = GROVE_VERSION;
   add_errors(module);

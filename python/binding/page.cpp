@@ -13,7 +13,7 @@
 namespace grove::python {
 namespace {
 
-// Returns the page of an instance and of at most two solutions with their names.
+// Returns the HTML page that shows an instance and at most two solutions, each with its name.
 std::string page(const Instance& instance, const std::string& title,
                  const std::vector<std::pair<std::string, OwnSolution>>& solutions) {
   return translated([&] {

@@ -13,7 +13,7 @@ namespace {
 
 using Point = std::pair<double, double>;
 
-// Positions of the places of a roadmap, in metres.
+// Coordinates of roadmap places, in metres, interpolated along straight roads.
 class Metres {
  public:
   explicit Metres(const World& world) : edges_(world.edges()) {
@@ -148,14 +148,16 @@ std::optional<double> gap_of(const OwnSolution& solution) {
 }
 
 void add_agent_plan(py::module_& module) {
-  py::class_<AgentPlan>(module, "AgentPlan", "Path, visits and work of one robot.")
+  py::class_<AgentPlan>(module, "AgentPlan", "Path, visits and task executions of one robot.")
       .def_readonly("id", &AgentPlan::id, "Id of the agent.")
       .def_readonly("cost", &AgentPlan::cost,
-                    "Finish time in steps: from then on it rests, with all tasks done.")
+                    "Finish time in steps: from then on the robot rests, with all its tasks done.")
       .def_property_readonly("path", &path_of, "Places at times 0, 1, ..., cost.")
-      .def_readonly("tasks", &AgentPlan::tasks, "Ids of its tasks, in order of completion.")
-      .def_property_readonly("work", &work_of,
-                             "[(task, begin, end), ...] for tasks with a duration, in steps.")
+      .def_readonly("tasks", &AgentPlan::tasks,
+                    "Ids of the tasks of the robot, in order of completion.")
+      .def_property_readonly(
+          "work", &work_of,
+          "Executions of tasks with a duration, as [(task, begin, end), ...], in steps.")
       .def("__repr__", [](const AgentPlan& agent) {
         return "<grove.AgentPlan: " + agent.id + ", cost " + std::to_string(agent.cost) + ">";
       });
@@ -176,14 +178,15 @@ void add_plan(py::module_& module) {
           "cost", [](const OwnPlan& p) { return p.plan->cost; }, "Sum of the costs of all agents.")
       .def_property_readonly(
           "makespan", [](const OwnPlan& p) { return p.plan->makespan(); },
-          "Step from which on all robots rest.")
+          "Time step from which on all robots rest.")
       .def_property_readonly(
           "agents", [](const OwnPlan& p) { return p.plan->agents; },
           "AgentPlans, in the order of the instance.")
       .def("positions", &positions,
-           "Positions, agents x times x 2: cells (x, y) on a grid, metres on a roadmap.")
+           "Returns an array of agents x times x 2: cells (x, y) on a grid, metres on a roadmap.")
       .def("headings", &headings,
-           "Headings, agents x times: 0 north, 1 east, 2 south, 3 west; -1 for an agent without "
+           "Returns an array of agents x times: 0 north, 1 east, 2 south, 3 west; -1 for an agent "
+           "without "
            "headings.")
       .def("__repr__", [](const OwnPlan& p) {
         return "<grove.Plan: " + std::to_string(p.plan->agents.size()) + " agents, cost " +
@@ -203,7 +206,7 @@ void add_plan(py::module_& module) {
       .def_readonly("plan", &OwnSolution::plan, "The plan; None if none was found.")
       .def_property_readonly(
           "lower_bound", [](const OwnSolution& s) { return s.facts.lower_bound; },
-          "Proven lower bound: no plan costs less.")
+          "Proven lower bound on the cost of every plan.")
       .def_property_readonly(
           "omega", [](const OwnSolution& s) { return s.facts.omega; },
           "Relative tolerance of the solve.")
@@ -222,9 +225,9 @@ void add_plan(py::module_& module) {
           "Real-valued statistics, such as wall_s.")
       .def_property_readonly(
           "texts", [](const OwnSolution& s) { return s.facts.texts; },
-          "Statistics that are texts, such as stopped_by, the limit that was reached, and reason, "
-          "why "
-          "there is no plan.")
+          "Text statistics, such as stopped_by (the limit that was reached) and reason (why there "
+          "is "
+          "no plan).")
       .def(
           "write",
           [](const OwnSolution& s, const std::filesystem::path& path) {

@@ -6,7 +6,8 @@
 namespace grove::python {
 namespace {
 
-// Converts tasks in the format of files: parses an instance that has only these tasks.
+// Converts a list of task dicts, in the format of *.cts.json files, by making an instance with
+// these tasks and the session's agents.
 std::vector<Task> tasks_of(const Session& session, const py::object& tasks) {
   const Instance now = session.instance();
   const py::object module = py::module_::import("grove");
@@ -15,7 +16,7 @@ std::vector<Task> tasks_of(const Session& session, const py::object& tasks) {
   return module.attr("Instance")(now.world(), agents, tasks).cast<const Instance&>().tasks();
 }
 
-// Returns the elements of a list. `expected`: description of an element, for error messages.
+// Converts each element of a list. `expected` describes an element in error messages.
 template <class T>
 std::vector<T> values_of(const py::object& list, const std::string& field,
                          const std::string& expected) {

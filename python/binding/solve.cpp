@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kBetweenSignals{20};
 
-// Holds a Python function so that search threads, which do not hold the GIL, can release it.
+// Returns a shared pointer to a Python function. Its deleter takes the GIL, because a search thread
+// without the GIL may drop the last reference.
 std::shared_ptr<py::object> shared(const py::object& function) {
   return {new py::object(function), [](py::object* held) {
             const py::gil_scoped_acquire lock;
@@ -44,7 +45,7 @@ void set_callbacks(Options& options, const Instance& instance, const py::dict& a
     };
 }
 
-// A search on another thread.
+// A search on a thread of its own. `solve` must outlive it.
 class SearchThread {
  public:
   explicit SearchThread(const std::function<Solution()>& solve)
@@ -59,7 +60,7 @@ class SearchThread {
           ended_.notify_one();
         }) {}
 
-  // Waits for kBetweenSignals. Returns whether the search has ended.
+  // Waits until the search ends, but at most for kBetweenSignals. Returns whether it has ended.
   bool wait() {
     std::unique_lock lock(mutex_);
     return ended_.wait_for(lock, kBetweenSignals, [this] { return done_; });
@@ -110,7 +111,7 @@ Solution run_on_search_thread(Call& call, const std::function<Solution()>& solve
     return search->wait();
   };
   while (!ended()) {
-    if (interrupt) continue;  // the search is about to end
+    if (interrupt) continue;  // a stop is requested already
     try {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (!call.stop.is_none() && call.stop.attr("is_set")().cast<bool>())
@@ -127,7 +128,7 @@ Solution run_on_search_thread(Call& call, const std::function<Solution()>& solve
 }
 
 void add_solve(py::module_& module) {
-  py::class_<Progress>(module, "Progress", "State of a run.")
+  py::class_<Progress>(module, "Progress", "State of a search at one moment.")
       .def_readonly("seconds", &Progress::seconds, "Seconds since the start.")
       .def_readonly("nodes_expanded", &Progress::nodes_expanded, "Constraint-tree nodes expanded.")
       .def_readonly("nodes_open", &Progress::nodes_open, "Constraint-tree nodes still open.")
@@ -137,7 +138,7 @@ void add_solve(py::module_& module) {
         return "<grove.Progress: cost " + (p.cost ? std::to_string(*p.cost) : "-") +
                ", lower bound " + std::to_string(p.lower_bound) + ">";
       });
-  // Defaults of the library, for the signatures of the Python functions.
+  // Defaults of the library, which grove/__init__.py uses as default arguments.
   const Options defaults;
   module.attr("_omega") = defaults.omega;
   module.attr("_time_limit") = *defaults.time_limit;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Long calls of the library from Python: they release the GIL and end on Ctrl-C.
+// Runs long library calls without the GIL, and stops them on Ctrl-C.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,8 @@
 
 namespace grove::python {
 
-// Options of a call. `arguments`: all arguments of grove.solve().
+// Options of a solve, converted from `arguments`, which has an entry for every keyword argument of
+// grove.solve().
 struct Call {
   explicit Call(const Instance& instance, const py::dict& arguments);
 
@@ -17,7 +18,9 @@ struct Call {
   std::stop_source source;
 };
 
-// Runs `solve` on another thread, so that this one can handle signals; returns its result.
+// Runs `solve` on another thread and returns its result or rethrows its exception. In the meantime
+// the calling thread runs Python's signal handlers and polls call.stop. It stops the search if
+// call.stop is set or a signal handler raises an exception, which it rethrows.
 Solution run_on_search_thread(Call& call, const std::function<Solution()>& solve);
 
 }  // namespace grove::python

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Conversions between values of the public API and of Python: places are tuples and texts; plans
-// and solutions hold their instance.
+// Conversions between values of the public API and Python values. A place is a tuple or a str.
+// Plans and solutions also hold their instance.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -46,14 +46,14 @@ struct OwnSolution {
   }
 };
 
-// Returns "north", ....
+// Returns "north", "east", "south" or "west".
 inline const char* name_of(Heading heading) {
   constexpr const char* kNames[] = {"north", "east", "south", "west"};
   return kNames[static_cast<int>(heading)];
 }
 
-// Returns a description of a value for error messages: type and shape of an array, otherwise its
-// repr() or, if that is long, its type.
+// Describes a value for error messages: an array by element type and shape, another value by its
+// repr() or, if that is long, by its type.
 inline std::string text_of_found(const py::handle& value) {
   constexpr std::size_t kMaxTextLength = 60;
   if (py::hasattr(value, "dtype") && py::hasattr(value, "shape"))
@@ -64,8 +64,8 @@ inline std::string text_of_found(const py::handle& value) {
   return "a " + std::string(py::str(py::type::of(value).attr("__name__")));
 }
 
-// Converts a value. Throws InvalidArgument with `field` and `expected` instead of the message of
-// pybind11.
+// Converts a Python value to T. Throws InvalidArgument, with `field` and `expected`, instead of
+// pybind11's exception.
 template <class T>
 T value_of(const py::handle& value, const std::string& field, const std::string& expected) {
   try {
@@ -77,7 +77,8 @@ T value_of(const py::handle& value, const std::string& field, const std::string&
   throw InvalidArgument(field, "found " + text_of_found(value) + "; expected " + expected);
 }
 
-// Returns the elements of a list, an array or another iterable.
+// Returns the elements of a list, an array or another iterable. Throws InvalidArgument if `value`
+// is a str or not iterable.
 inline std::vector<py::object> elements_of(const py::handle& value, const std::string& field,
                                            const std::string& expected) {
   if (!py::isinstance<py::iterable>(value) || py::isinstance<py::str>(value))
@@ -102,7 +103,8 @@ void add_page(py::module_& module);
 
 namespace pybind11::detail {
 
-// (x, y), "A" or ("A", "B", steps[, edge]).
+// Converts a Place from and to a cell (x, y), a vertex "A" or a place on a road
+// ("A", "B", steps[, edge]).
 template <>
 struct type_caster<grove::Place> {
   PYBIND11_TYPE_CASTER(grove::Place, const_name("Place"));

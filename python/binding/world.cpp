@@ -11,7 +11,7 @@ namespace {
 
 using Bools = py::array_t<bool, py::array::c_style>;
 
-// Makes a grid from the lines of one text, or from a list of texts.
+// Makes a grid from the lines of a str, or from a list of str, one per row.
 World from_rows(const py::object& rows) {
   if (!py::isinstance<py::str>(rows))
     return World::from_rows(value_of<std::vector<std::string>>(
@@ -104,7 +104,7 @@ void add_world(py::module_& module) {
       "World(rows): rows of '.' (passable) and '@' or '#' (blocked), as one text or a list.")
       .def(py::init(&from_rows), py::arg("rows"))
       .def_static("grid", &grid, py::arg("passable"),
-                  "Makes a grid from a two-dimensional array of rows and columns; true: passable.")
+                  "Makes a grid from an array of rows x columns; true: passable.")
       .def_static("roadmap", &roadmap, py::arg("vertices"), py::arg("roads"),
                   "Makes a roadmap from {'A': (x, y), ...} in metres and [('A', 'B', steps), "
                   "('B', 'C', steps, True), ...]; True: one way.")
@@ -113,7 +113,7 @@ void add_world(py::module_& module) {
       .def_property_readonly("is_grid", &World::is_grid, "True for a grid, False for a roadmap.")
       .def_property_readonly("width", &World::width, "Number of columns; 0 for a roadmap.")
       .def_property_readonly("height", &World::height, "Number of rows; 0 for a roadmap.")
-      .def_property_readonly("passable", &passable, "Array of rows and columns; true: passable.")
+      .def_property_readonly("passable", &passable, "Array of rows x columns; true: passable.")
       .def_property_readonly("vertices", &vertices, "Vertices, as {'A': (x, y), ...}, in metres.")
       .def_property_readonly("roads", &roads, "Roads, as [(from, to, steps, one_way), ...].")
       .def("__repr__", &world_summary);

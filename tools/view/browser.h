@@ -5,8 +5,8 @@
 
 namespace grove::detail {
 
-// Opens a file or an address with the desktop's opener (xdg-open) and does not wait for it. Throws
-// InputError if there is none.
+// Opens a file or an address with xdg-open, without waiting for it. Throws InputError if xdg-open
+// cannot be run.
 void open_in_browser(std::string target);
 
 }  // namespace grove::detail

@@ -13,19 +13,19 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kFine = 1000;  // resolution: parts of a second, of a cell, of a metre, as in logs
+constexpr double kFine = 1000;  // units per second, cell or metre: the resolution of drive logs
 
 std::int64_t in_parts(double number) {
   return std::llround(number * kFine);
 }
 
-// Whole degrees, 0 to 359; -1: unknown.
+// Returns whole degrees from 0 to 359, or -1 if the angle is unknown (NaN).
 std::int64_t degrees(double angle) {
   return std::isnan(angle) ? -1 : (std::llround(std::fmod(angle, 360)) + 360) % 360;
 }
 
-// Writes `"name":[1,0,-3]`: the values of `of`, each except the first as the difference from the
-// one before it.
+// Appends `"name":[1,0,-3]`: the value of `of` for each sample. Each value except the first is
+// stored as its difference from the previous one.
 template <typename Of>
 void append_differences(std::string& text, const char* name, std::span<const PoseSample> seen,
                         Of of) {

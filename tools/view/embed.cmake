@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Writes OUTPUT, which defines the function of page_parts.h for the page NAME. The style is the concatenation of the
-# files STYLES, with values of the palette for @...@; the program is the file PROGRAM.
+# Writes OUTPUT, a C++ source that defines the function NAME_page_parts() of page_parts.h. The style is the
+# concatenation of the files STYLES, with palette values in place of @...@. The program is the file PROGRAM.
 include(${CMAKE_CURRENT_LIST_DIR}/palette.cmake)
 foreach(file IN LISTS STYLES)
   file(READ ${file} text)

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// GET /TOKEN/ returns the page. GET /TOKEN/log?from=N returns whole lines of the log from byte N
-// on, with three headers: X-Log names the file, so that the page restarts if it was replaced; X-End
-// is the end of the answer; X-Size is the size of the log. All other requests get 404: other users
-// of this machine can reach the address, but do not know the token.
+// GET /TOKEN/ returns the page. GET /TOKEN/log?from=N&file=NAME returns whole lines of the log from
+// byte N on, or from byte 0 if the current file is not NAME. Headers of the answer: X-Log is the
+// name of the current file, which changes when the log is replaced; X-End is the offset after the
+// returned lines; X-Size is the size of the log (both in bytes). Other paths get 404: other users
+// of this machine can reach the port, but do not know the token.
 #include "tools/view/follow_server.h"
 
 #include <fmt/format.h>
@@ -22,23 +23,24 @@ namespace grove::detail {
 namespace {
 
 constexpr const char* kLoopback = "127.0.0.1";
-constexpr std::streamoff kMaxAnswerBytes = 4 << 20;  // maximum size of an answer, bytes
-constexpr std::streamsize kBeginning = 4096;         // bytes by which a log is recognised
+constexpr std::streamoff kMaxAnswerBytes = 4 << 20;  // maximum size of an answer, in bytes
+constexpr std::streamsize kBeginning = 4096;  // if these first bytes change, the log was replaced
 constexpr auto kPause = std::chrono::milliseconds(100);
 constexpr auto kMoment = std::chrono::milliseconds(1);
 
-// A file that another process writes.
+// A file that another process writes. Thread-safe.
 class GrowingFile {
  public:
   explicit GrowingFile(std::filesystem::path path) : path_(std::move(path)) {}
 
   struct Part {
-    std::string name;  // changes if the file was replaced
-    std::string text;  // whole lines
-    std::streamoff end = 0;
-    std::streamoff size = 0;
+    std::string name;         // changes if the file was replaced
+    std::string text;         // whole lines
+    std::streamoff end = 0;   // offset after `text`, in bytes
+    std::streamoff size = 0;  // of the file, in bytes
   };
-  // Returns the content from `from` on if the file still has this name, else from the beginning.
+  // Returns at most kMaxAnswerBytes, from byte `from` on if the file is still `name`, otherwise
+  // from its beginning.
   Part read(std::streamoff from, const std::string& name) {
     const std::lock_guard lock(mutex_);
     std::ifstream file(path_, std::ios::binary);
@@ -50,7 +52,7 @@ class GrowingFile {
     part.text.resize(static_cast<std::size_t>(std::min(size - part.end, kMaxAnswerBytes)));
     file.seekg(part.end);
     file.read(part.text.data(), static_cast<std::streamsize>(part.text.size()));
-    part.text.resize(part.text.rfind('\n') + 1);  // npos + 1 is 0
+    part.text.resize(part.text.rfind('\n') + 1);  // "" if there is no newline: npos + 1 is 0
     part.end += static_cast<std::streamoff>(part.text.size());
     return part;
   }
@@ -81,7 +83,8 @@ std::streamoff offset_of(const httplib::Request& request) {
   }
 }
 
-// Answers requests that are not for this server, and returns true for them.
+// Refuses requests with a foreign host name (403) or a method other than GET (405). Returns whether
+// it has refused.
 bool refuse(int port, const httplib::Request& request, httplib::Response& response) {
   const std::string host = request.get_header_value("Host");
   const bool is_known =
@@ -99,14 +102,15 @@ std::string random_token() {
   return token;
 }
 
-// Lets the port be reused immediately after a server has ended, but not shared with a running one,
-// as httplib would allow.
+// Permits reuse of the port as soon as the previous server has ended. The default options of
+// httplib would also permit sharing it with a running server.
 void keep_the_port(socket_t socket) {
   const int yes = 1;
   setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
 }
 
-// Without compression, which takes httplib seconds for megabytes and is useless on one machine.
+// Sends `text` uncompressed: httplib takes seconds to compress megabytes, and on one machine
+// compression gains nothing.
 void send(httplib::Response& response, std::string text, const char* type) {
   const std::size_t size = text.size();
   if (size == 0) return response.set_content("", type);
@@ -152,8 +156,7 @@ void serve(const Followed& followed, int port, const std::function<void(const st
   });
   begun(fmt::format("http://{}:{}{}", kLoopback, port, root));
   std::jthread listening([&] { server.listen_after_bind(); });
-  while (!server.is_running())
-    std::this_thread::sleep_for(kMoment);  // before, stop() has no effect
+  while (!server.is_running()) std::this_thread::sleep_for(kMoment);  // stop() has no effect before
   while (!over()) std::this_thread::sleep_for(kPause);
   server.stop();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grove-follow LOG: the program that `grove view --follow` executes. Reads the page from standard
-// input.
+// grove-follow LOG: the server that `grove view --follow` executes. It reads the HTML page from
+// standard input.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

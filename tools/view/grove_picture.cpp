@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grove-picture view ...: the program that `grove view` executes to draw pictures. It has only this
-// command, and the libraries for drawing.
+// grove-picture view ...: the program that `grove view` executes to draw pictures. It has only the
+// view command, and is linked with the drawing libraries.
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>

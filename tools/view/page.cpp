@@ -28,7 +28,7 @@ std::string escaped(std::string_view text) {
   return html;
 }
 
-// In JSON, '<' occurs only in strings and may be escaped. Then no text can end the element.
+// Escapes every '<', so that no text can end the <script> element. JSON has '<' only in strings.
 std::string without_markup(std::string_view json) {
   std::string safe;
   safe.reserve(json.size());
@@ -46,11 +46,11 @@ struct Data {
   std::string_view text;  // without '<'
 };
 
-// The servers that the page may request data from.
+// The server, if any, from which the page may request data.
 enum class Asks { kNone, kItsServer };
 
-// The content security policy allows only what is in the page: no external scripts, and no requests
-// except those that `asks` permits.
+// Returns the page as one HTML document. Its content security policy permits no external scripts,
+// and no requests except those that `asks` permits.
 std::string html(std::string_view title, const PageParts& parts, std::initializer_list<Data> all,
                  Asks asks = Asks::kNone) {
   std::string data;

@@ -12,7 +12,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Run-length encoding "12E.3N": the count, if more than 1, and a letter.
+// Run-length encoding of moves or turns, such as "12E.3N": for each run its length, if more than 1,
+// and its letter.
 class Steps {
  public:
   void add(char letter) {
@@ -84,7 +85,7 @@ Json world_json(const Instance& instance) {
 
 // --- agents and tasks ---
 
-// Angle in steps of a turn, clockwise from north.
+// Returns the angle in steps of a turn, clockwise from north.
 Time angle(Motion motion, const Pose& pose) {
   const Time heading = static_cast<Time>(pose.heading) * motion.turn_steps;
   const bool leftward = pose.steps > 0 && pose.to == left_of(pose.heading);
@@ -92,7 +93,7 @@ Time angle(Motion motion, const Pose& pose) {
   return (heading + (leftward ? around - pose.steps : pose.steps)) % around;
 }
 
-// "3", or "3l" while turning left.
+// Returns the angle as text: "3"; within a turn "3l" (to the left) or "3r" (to the right).
 std::string angle_text(Motion motion, const Pose& pose) {
   std::string text = std::to_string(angle(motion, pose));
   if (pose.steps > 0) text += pose.to == left_of(pose.heading) ? 'l' : 'r';
@@ -129,7 +130,7 @@ Json tasks_json(const Instance& instance) {
 
 // --- plans ---
 
-// Returns nullopt if the move has no letter.
+// Returns the letter of a move, or nullopt if it has none (README.md).
 std::optional<char> move_letter(const Instance& instance, Place from, Place to) {
   if (from == to) return '.';
   if (!instance.is_on_grid())
@@ -143,7 +144,8 @@ std::optional<char> move_letter(const Instance& instance, Place from, Place to) 
   return std::nullopt;
 }
 
-// Returns nullopt if there is no step of a turn from `from` to `to`.
+// Returns '.' if the angle stays, 'r' or 'l' for one step of a turn, and nullopt for any other
+// change.
 std::optional<char> turn_letter(Motion motion, const Pose& from, const Pose& to) {
   if (from.heading == to.heading && from.to == to.to && from.steps == to.steps) return '.';
   const auto after = [&](Heading end) {
@@ -228,7 +230,7 @@ Json plan_json(const Instance& instance, const NamedPlan& named) {
   return json;
 }
 
-// Escapes "<", which begins everything that could end or nest a script element.
+// Escapes every '<', because each tag that could end or nest a <script> element starts with it.
 std::string without_markup(const std::string& json) {
   std::string text;
   text.reserve(json.size());

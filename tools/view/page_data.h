@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Data of a page of `grove view` (README.md in this directory).
+// Instance and plans as data for the pages of `grove view` (README.md in this directory).
 #pragma once
 
 #include <span>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Style and script of the pages, made by the build from page/, run/, drive/ and proof/.
+// Style and script of each page. The build makes them from page/, run/, drive/ and proof/.
 #pragma once
 
 #include <string_view>
 
 namespace grove::detail {
 
-// Neither contains the end tag of its element.
+// Content of the <style> and <script> elements, without their end tags.
 struct PageParts {
   std::string_view style;
   std::string_view program;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Defines a variable for each value of palette.json, named by its keys: `light.floor` is ffffff (colours without
-# their #), `light.doing.0` the first of a list, `shapes.bend` 0.35.
+# Defines one variable for each value of palette.json. The name of the variable is the path of keys, such as
+# `light.floor`, `shapes.bend` or, for the first element of a list, `light.doing.0`. Colours lose their #.
 file(READ ${CMAKE_CURRENT_LIST_DIR}/palette.json palette)
 set(paths light dark page run shapes)
 while(paths)

@@ -16,7 +16,7 @@ constexpr const char* kHeader =
     "expected the header of a log, as 'grove solve --log FILE --log-format jsonl' "
     "writes it";
 
-// Returns "" if the line is not an event.
+// Returns the name of the event, or "" if the line is no event.
 std::string event_of(std::string_view line) {
   const auto json = nlohmann::json::parse(line, nullptr, false);
   if (!json.is_object()) return "";
@@ -28,7 +28,7 @@ std::string event_of(std::string_view line) {
 
 std::string read_run_log(const std::filesystem::path& path) {
   std::string text = read_text(path);
-  text.resize(text.rfind('\n') + 1);  // npos + 1 is 0
+  text.resize(text.rfind('\n') + 1);  // "" if there is no newline: npos + 1 is 0
   if (text.empty()) throw InputError(path.string(), "", fmt::format("is empty; {}", kHeader));
   std::size_t number = 0;
   for (const std::string_view line : split_lines(text)) {

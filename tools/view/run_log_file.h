@@ -7,8 +7,9 @@
 
 namespace grove::detail {
 
-// Returns its complete lines, each an object with an `event`, the header first. Drops an incomplete
-// last line, because the run may be in progress or killed. Throws InputError.
+// Returns the complete lines of the log, each an object with an `event`, the header first. Drops an
+// incomplete last line, because the run may be in progress or was killed. Throws InputError if the
+// file is invalid.
 std::string read_run_log(const std::filesystem::path& path);
 
 }  // namespace grove::detail

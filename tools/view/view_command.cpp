@@ -71,7 +71,7 @@ Examples:
 constexpr IntegerRange kWidths{16, 10'000};
 constexpr std::size_t kMaxPlans = 2;  // on one page
 constexpr IntegerRange kPorts{0, 65'535};
-constexpr std::int64_t kMaxSplits = 5000;  // of a certificate on a page
+constexpr std::int64_t kMaxSplits = 5000;  // of a certificate that a page shows
 
 struct ViewArguments {
   InstanceArguments instance;
@@ -79,8 +79,8 @@ struct ViewArguments {
   std::string output;
   bool open = false;
   std::string run;    // log of a run, instead of an instance
-  std::string drive;  // log of an execution of the first plan
-  std::string proof;  // certificate
+  std::string drive;  // log of an execution of the plan
+  std::string proof;  // certificate of a lower bound
   bool follow = false;
   std::int64_t port = 0;
   PictureOrder pictures;
@@ -98,7 +98,8 @@ std::string name_of(const std::string& file) {
   return fs::path(file).filename().string();
 }
 
-// The page of a plan usually has the name of the instance.
+// Returns the name of the page of a certificate, plan or instance. An instance page has a suffix of
+// its own, because plans are usually named after their instance.
 std::string default_output(const ViewArguments& arguments) {
   if (!arguments.proof.empty()) return name_of(arguments.proof) + ".html";
   if (arguments.plans.empty()) return arguments.instance.stem() + ".instance.html";
@@ -106,7 +107,7 @@ std::string default_output(const ViewArguments& arguments) {
   return name.substr(0, name.find('.')) + ".html";
 }
 
-// Returns "" if only pictures are requested.
+// Returns the name of the page to write, or "" if only pictures are requested.
 std::string page_file(const ViewArguments& arguments) {
   if (!arguments.output.empty() || arguments.wants_pictures()) return arguments.output;
   return default_output(arguments);
@@ -134,7 +135,7 @@ void write_pictures(const PictureMaker& maker, PictureOrder order, const Instanc
   maker.draw(order, instance, plan, write);
 }
 
-// Executes the server, with the page as its standard input.
+// Replaces this process by the server, with the page as its standard input.
 [[noreturn]] void follow(const ViewArguments& arguments, const std::string& log,
                          std::string_view page) {
   replace_standard_input(page);
@@ -143,7 +144,7 @@ void write_pictures(const PictureMaker& maker, PictureOrder order, const Instanc
   exec_program("grove-follow", words);
 }
 
-// Writes the page of a log, by default under the name of the log.
+// Writes the page of a log, and opens it if requested. Its default name is that of the log.
 void write_log_page(const ViewArguments& arguments, const std::string& log,
                     const std::string& page) {
   const std::string output =
@@ -199,8 +200,8 @@ void show_proof(const ViewArguments& arguments, const Instance& instance,
   if (arguments.open) open_in_browser(fs::absolute(output).string());
 }
 
-// Warns about an invalid plan. It is shown anyway: the page lists the errors, a picture marks them
-// red.
+// Adds a warning if the plan is invalid. It is shown anyway: a page lists its violations, and a
+// picture shows colliding robots in red.
 void warn_if_invalid(const Instance& instance, const NamedPlan& plan,
                      std::vector<std::string>& warnings) {
   const Solution& solution = plan.claimed.solution;
@@ -251,7 +252,8 @@ void add_log_options(CLI::App& command, ViewArguments& arguments) {
   add_integer(command, "--port", arguments.port, kPorts, "with --follow: port; 0: any free port");
 }
 
-// CLI11 could check this too, but would repeat it in every line of the help.
+// Throws a CLI error if the options do not fit together. CLI11 could check this, but would add the
+// conditions to every line of the help.
 void require_fit(const CLI::App& command) {
   const auto given = [&](const char* name) { return !command.get_option(name)->empty(); };
   if (given("--follow") && !given("--run") && !given("--drive"))

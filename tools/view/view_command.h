@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove view, shared by two programs: grove, and grove-picture, which can draw.
+// The view command, which two programs have: grove, and grove-picture, which draws pictures.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -18,18 +18,19 @@ struct PictureOrder {
   std::string svg;
   std::string png;
   std::string gif;
-  std::vector<double> moments;  // times of SVG and PNG, steps; at least one
-  std::int64_t width = 800;     // of a moment, pixels
-  double speed = 4;             // of a GIF, steps per second
+  std::vector<double> moments;  // times of SVG and PNG, in steps; at least one for draw()
+  std::int64_t width = 800;     // of a moment or of the GIF, in pixels
+  double speed = 4;             // of the GIF, in steps per second
 
   bool is_empty() const { return svg.empty() && png.empty() && gif.empty(); }
 };
 
-// Exactly one of the two is set.
+// How a program makes pictures. Exactly one of the two members is set.
 struct PictureMaker {
   // Replaces this process (exec) before it has read or written any file; does not return.
   std::function<void()> hand_over;
-  // Draws the plan; nullptr: the instance. Calls `write` with each file and its content.
+  // Draws the plan or, if it is nullptr, the instance. Calls `write` with each file and its
+  // content.
   std::function<void(
       const PictureOrder& order, const Instance& instance, const Plan* plan,
       const std::function<void(const std::string& file, const std::string& bytes)>& write)>

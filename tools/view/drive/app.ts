@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// State of the page: the drive, the moment shown, and the selection.
+// State of the page: the execution (Drive), the moment shown, and the selection.
 
 import type { TaskFacts } from "../page/facts";
 import type { Model } from "../page/model";
@@ -10,7 +10,7 @@ import { DrivePlayer } from "./player";
 
 export class DriveApp implements Choice {
   readonly player: DrivePlayer;
-  readonly tasks: TaskFacts[]; // in seconds of the drive
+  readonly tasks: TaskFacts[]; // times in seconds of the execution
   chosen = -1;
   chosenTask = -1;
   following = false;
@@ -26,7 +26,7 @@ export class DriveApp implements Choice {
     this.take(drive);
   }
 
-  // Called when the log has grown or was replaced.
+  // Replaces the data of the execution, after the log has grown or was replaced.
   take(drive: Drive): void {
     this.drive = drive;
     this.player.end = drive.end;
@@ -47,7 +47,8 @@ export class DriveApp implements Choice {
     this.changed();
   }
 
-  // Time of a visit; Infinity: not yet.
+  // Returns the time at which the robot completed an action (-1: the start, at time 0), in seconds; Infinity
+  // if the log does not have it yet.
   visitTime(agent: number, action: number): number {
     return action < 0 ? 0 : this.drive.completedAt[agent][action] ?? Infinity;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads the drive in the page, given as columns of differences (README.md).
+// Reads the execution that the page contains, which is stored as columns of differences (README.md).
 
 import { parse, type Value } from "../page/json";
 import type { Model } from "../page/model";
@@ -7,7 +7,7 @@ import { nameOf } from "../page/names";
 import { Drive, kStates } from "./drive";
 import type { Order } from "./order";
 
-const kFine = 1000; // parts of a second, and of a cell or metre
+const kFine = 1000; // units of the data per second, cell or metre
 
 export function readDrive(text: string, model: Model, order: Order): Drive {
   const data = parse(text);

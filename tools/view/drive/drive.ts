@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A drive from its log (docs/drive-log.md): the observations of each robot over time, in flat columns that
-// grow.
+// An execution as its log describes it (docs/drive-log.md): for each robot its observations over time, in
+// typed arrays that grow.
 
 import type { Model } from "../page/model";
 
@@ -10,12 +10,12 @@ export const kWaiting = 0;
 export const kMoving = 1;
 export const kDone = kStates.indexOf("done");
 
-// States in which a robot needs help from a person.
+// Whether a robot in this state needs help from a person.
 export function needsHelp(state: number): boolean {
   return kStates[state] === "lifted" || kStates[state] === "lost";
 }
 
-// Signs beside robots, so that a state is not shown only by colour. A moving robot needs no sign.
+// Signs beside robots, so that states are recognisable without colours. A moving robot has none.
 const kMarks: Record<State, string> = {
   waiting: "…", moving: "", working: "↻", lifted: "↑", lost: "?", done: "✓",
 };
@@ -26,15 +26,15 @@ export function markOf(state: number): string {
 
 const kFirst = 64;
 
-// The observations of a robot.
+// The observations of one robot, in order of time.
 export class Sightings {
   count = 0;
   times = new Float64Array(kFirst); // seconds, ascending
-  xs = new Float32Array(kFirst); // in the world's units
+  xs = new Float32Array(kFirst); // in world units
   ys = new Float32Array(kFirst);
-  angles = new Float32Array(kFirst); // clockwise from up, radians; NaN: not known
-  actions = new Int32Array(kFirst); // completed
-  states = new Uint8Array(kFirst); // of kStates
+  angles = new Float32Array(kFirst); // clockwise from up, radians; NaN: unknown
+  actions = new Int32Array(kFirst); // number of completed actions
+  states = new Uint8Array(kFirst); // indices into kStates
   private last = 0;
 
   add(time: number, x: number, y: number, angle: number, action: number, state: number): void {
@@ -48,8 +48,8 @@ export class Sightings {
     this.states[i] = state;
   }
 
-  // Returns the last observation not after `time`; 0 before the first. The search starts at the last result,
-  // which is usually near.
+  // Returns the index of the last observation not after `time`, or 0 if all are later. Searches from the
+  // previous result, which is usually near.
   at(time: number): number {
     const { times, count } = this;
     let low = this.last;
@@ -88,18 +88,18 @@ export class Sightings {
 }
 
 export class Drive {
-  order = ""; // name of the passing order's file; empty: the drive has not begun
+  order = ""; // file name of the passing order; empty: the execution has not started
   secondsPerStep = 1;
-  end = 0; // seconds
+  end = 0; // time of the last observation, in seconds
   readonly robots: Sightings[]; // by agent
-  readonly completedAt: number[][]; // by agent and action: seconds
+  readonly completedAt: number[][]; // by agent and action: time of completion, in seconds
 
   constructor(model: Model) {
     this.robots = model.agents.map(() => new Sightings());
     this.completedAt = model.agents.map(() => []);
   }
 
-  // The angle is in degrees.
+  // Adds an observation. `angle` is in degrees, `action` is the number of completed actions.
   add(
     agent: number, time: number, x: number, y: number, angle: number, action: number, state: number,
   ): void {
@@ -114,7 +114,7 @@ export class Drive {
     return robot.count > 0 && robot.times[0] <= time ? robot.actions[robot.at(time)] : 0;
   }
 
-  // State of a robot; kWaiting before its first observation.
+  // Returns the state of a robot; kWaiting before its first observation.
   stateAt(agent: number, time: number): number {
     const robot = this.robots[agent];
     return robot.count > 0 && robot.times[0] <= time ? robot.states[robot.at(time)] : kWaiting;

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Delay of robots relative to the plan: the time since the next action should have ended, if each step of
-// the plan took the time that the log of the drive states. For a robot that is done: the delay of its
-// last action.
+// Delay of a robot relative to the plan: the time since its next action should have ended if each step of the
+// plan took `seconds_per_step` of the drive log. For a robot that has completed all actions, it is the delay
+// of its last action.
 
 import type { DriveApp } from "./app";
 
-// Planned end of this action, in seconds of the drive.
+// Returns the planned end of the next action or, after all actions, of the last one, in seconds of the
+// execution.
 export function dueTime({ drive, order }: DriveApp, agent: number, time: number): number {
   const next = Math.min(drive.actionsAt(agent, time) + 1, order.actions(agent));
   return order.planTime(agent, next) * drive.secondsPerStep;
 }
 
-// Delay in seconds; 0: in time.
+// Returns the delay in seconds; 0 if the robot is in time.
 export function lateness(app: DriveApp, agent: number, time: number): number {
   const { drive, order } = app;
   const all = order.actions(agent);

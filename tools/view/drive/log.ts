@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads the log of a drive that is followed. The parser is strict; a wrong line is skipped and counted.
+// Reads the drive log of a running execution. The parser is strict; it skips and counts invalid lines.
 
 import { parse, type Value } from "../page/json";
 import type { Model } from "../page/model";
@@ -9,17 +9,17 @@ import { Drive } from "./drive";
 import type { Order } from "./order";
 
 const kFormat = "grove drive 1";
-// The same limits as in src/io/execution_log_file.cpp.
+// Limits, equal to those in src/io/execution_log_file.cpp.
 const kFar = 1e7; // cells or metres
 const kLong = 1e9; // seconds
 
 export class Log {
   readonly drive: Drive;
-  leftOut = 0; // lines skipped
-  firstTrouble = ""; // error of the first of them
+  leftOut = 0; // number of skipped lines
+  firstTrouble = ""; // error of the first skipped line
   private isBegun = false;
   private readonly agents: Map<string, number>;
-  private readonly named = new Set<string>(); // the robots of the header
+  private readonly named = new Set<string>(); // ids of the robots in the header
   private rest = ""; // the incomplete last line
   private lines = 0;
 
@@ -28,8 +28,8 @@ export class Log {
     this.agents = new Map(model.agents.map(({ id }, i) => [id, i]));
   }
 
-  // Reads new text. A wrong line must not stop the display of robots, so it is skipped. Without a valid first
-  // line the others have no meaning.
+  // Reads new text. Skips invalid lines, because they must not stop the display of robots. If the first line
+  // is invalid, ignores all others, because they have no meaning without it.
   add(text: string): void {
     const lines = (this.rest + text).split("\n");
     this.rest = lines.pop()!;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Page of a drive: reads the log, from the page or while it grows, and shows it.
+// Page of an execution: reads the log, from the page or from the server while it grows, and shows it.
 
 import { kDark, kLight } from "../page/colors";
 import { el } from "../page/dom";
@@ -68,7 +68,7 @@ function follow(model: Model, order: Order): void {
     add: (text, isAll) => {
       log.add(text);
       take();
-      // A link may name any moment of the log so far.
+      // Applies the link only now, because it can name any moment of the log so far.
       if (isAll && !isLinked) linkPage(app);
       isLinked ||= isAll;
     },
@@ -116,11 +116,12 @@ function show(app: DriveApp, strip: Strip): void {
     requestAnimationFrame(tick);
   };
   requestAnimationFrame(tick);
-  // For tests.
+  // For tests: the state of the page.
   Object.assign(window, { grove: { app, stages: [stage] } });
 }
 
-// The planned path of a robot, from its current action on.
+// Returns the scene of the execution. On the planned path of the selected robot, the part ahead starts after
+// its last completed action.
 function sceneOf(app: DriveApp, frame: DriveNow) {
   const [plan] = app.model.plans;
   const paths = new Paths(app.model, { plan }, null);

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Positions of all robots of a drive at a moment. Between two observations a moving robot is assumed to go
-// straight, and a standing robot to stand until shortly before the next one.
+// Positions of all robots of an execution at one moment. Between two observations, a moving robot is assumed
+// to move in a straight line, and a standing robot to stand until shortly before the next observation.
 
 import { Doing } from "../page/facts";
 import type { Model } from "../page/model";
 import type { RobotsNow } from "../page/robots_now";
 import { kStates, markOf, needsHelp, type Drive, type State } from "./drive";
 
-const kBrief = 0.15; // seconds: a change is logged after at most this time
-const kLongest = 10; // seconds between observations of a moving robot
+// The log has a change of state within kBrief seconds, and a moving robot at least every kLongest seconds. A
+// motion before an observation is therefore assumed to take no longer.
+const kBrief = 0.15;
+const kLongest = 10;
 
 const kDoing: Record<State, Doing> = {
   waiting: Doing.kWaiting, moving: Doing.kMoving, working: Doing.kWorking, done: Doing.kResting,
@@ -22,8 +24,8 @@ export class DriveNow implements RobotsNow {
   readonly ys: Float32Array;
   readonly angles: Float32Array;
   readonly doing: Uint8Array;
-  readonly colliding: Uint8Array; // needs help
-  readonly missing: Uint8Array; // (none: robots without observation are drawn at their starts)
+  readonly colliding: Uint8Array; // 1 if the robot needs help
+  readonly missing: Uint8Array; // always 0: robots without an observation are drawn at their starts
 
   constructor(private readonly model: Model, public drive: Drive) {
     this.count = model.agents.length;
@@ -61,13 +63,13 @@ export class DriveNow implements RobotsNow {
     this.angles[i] = robot.angles[at] + (Number.isNaN(turn) ? 0 : turn * part);
   }
 
-  // Fraction of the way to the next observation.
+  // Returns the completed fraction of the way from observation `at` to the next one, from 0 to 1.
   private partGone(i: number, at: number, time: number): number {
     const { times, states } = this.drive.robots[i];
     const end = times[at + 1];
     const longest = kStates[states[at]] === "moving" ? kLongest : kBrief;
     const begin = Math.max(times[at], end - longest);
-    // Before the first observation, also if the second one has the same time.
+    // `time` may be before the first observation, where `begin` and `end` can be equal.
     if (time <= begin) return 0;
     return Math.min(1, (time - begin) / (end - begin));
   }
@@ -80,7 +82,7 @@ export class DriveNow implements RobotsNow {
   }
 }
 
-// Returns the turn from one angle to the other, in the direction of the smaller turn.
+// Returns the smaller of the two turns from one angle to the other, in radians; NaN if an angle is unknown.
 function turnBetween(from: number, to: number): number {
   const turn = (to - from) % (2 * Math.PI);
   return turn > Math.PI ? turn - 2 * Math.PI : turn < -Math.PI ? turn + 2 * Math.PI : turn;

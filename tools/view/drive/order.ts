@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The passing order of the executed plan (README.md): planned ends of actions, their visits, and the actions
-// they wait for.
+// The passing order of the executed plan (README.md): for each action its planned end, the tasks that it
+// visits, and the action of another robot that it waits for.
 
 import { parse, type Value } from "../page/json";
 import type { Model } from "../page/model";
@@ -9,17 +9,17 @@ const kMostTime = (1 << 30) + 1;
 
 export interface Wait {
   agent: number;
-  action: number; // to be completed
+  action: number; // must be completed first
 }
 
 export interface Visit {
-  action: number; // action of the visit; -1: at the start
+  action: number; // the action that visits the task; -1: visited at the start
   task: number;
 }
 
 interface RobotOrder {
-  ends: number[]; // by action: plan steps
-  visits: Visit[]; // ascending
+  ends: number[]; // by action: planned end, in steps
+  visits: Visit[]; // by ascending action
   waits: Map<number, Wait>; // by action
 }
 
@@ -37,7 +37,7 @@ export class Order {
     return this.robots[agent].ends.length;
   }
 
-  // Time of the plan that a robot has reached with this number of completed actions.
+  // Returns the planned time, in steps, at which a robot has completed this number of actions.
   planTime(agent: number, completed: number): number {
     return completed > 0 ? this.robots[agent].ends[completed - 1] : 0;
   }
@@ -46,7 +46,7 @@ export class Order {
     return this.robots[agent].visits;
   }
 
-  // The action that the next action of a robot must wait for, given its number of completed actions.
+  // Returns the action that a robot with this number of completed actions must wait for; null: none.
   wait(agent: number, completed: number): Wait | null {
     return this.robots[agent].waits.get(completed) ?? null;
   }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Time of a drive in seconds: played back, or live.
+// The moment of the execution that is shown, in seconds. It is played back, or live: shortly behind the end
+// of the log.
 
 import { Player } from "../page/player";
 
-const kBehind = 1; // seconds by which a live display is behind the log, so that it never waits for data
-const kTooFar = 3; // seconds
-const kSlowest = 0.25; // seconds per second: the end of the log is reached even if it no longer grows
+const kBehind = 1; // seconds by which a live display lags behind the log, so that it does not wait for data
+const kTooFar = 3; // seconds of deviation from this lag, above which the display jumps
+const kSlowest = 0.25; // seconds per second; positive, so that the display reaches the end of a log that stops growing
 
 export class DrivePlayer extends Player {
   live: boolean;
@@ -26,7 +27,7 @@ export class DrivePlayer extends Player {
     this.time = Math.max(0, this.end - kBehind);
   }
 
-  // Pauses a live display.
+  // Pauses a live display; otherwise starts or pauses playing.
   toggle(): void {
     if (this.live) this.live = false;
     else super.toggle();
@@ -42,7 +43,8 @@ export class DrivePlayer extends Player {
     super.step(by);
   }
 
-  // At normal speed, slightly faster or slower to stay at a constant distance from the end of the log.
+  // Advances by the elapsed seconds. A live display runs at about normal speed, faster or slower to keep its
+  // lag behind the end of the log constant.
   advance(seconds: number): void {
     if (!this.live) return super.advance(seconds);
     const off = Math.max(0, this.end - kBehind) - this.time;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Texts of the page.
+// Texts of the execution page.
 
 import type { TimeWords } from "../page/panels/controls";
 import { plural } from "../page/dom";
@@ -13,7 +13,7 @@ const kStateWords = {
   done: "done",
 };
 
-// "4:05", or "1:00:07".
+// Returns minutes and seconds, "4:05", or from one hour on "1:00:07".
 export function clockText(seconds: number): string {
   const whole = Math.floor(seconds);
   const two = (number: number) => String(number).padStart(2, "0");
@@ -32,31 +32,31 @@ export function stateText(state: number): string {
   return kStateWords[kStates[state]];
 }
 
-// Name of the robot that a robot waits for at a time; empty: none.
+// Returns the name of the robot that a robot waits for at a time; empty: none.
 export function waitText(app: DriveApp, agent: number, time: number): string {
   const wait = app.order.wait(agent, app.drive.actionsAt(agent, time));
   if (!wait || app.drive.actionsAt(wait.agent, time) > wait.action) return "";
   return app.model.agents[wait.agent].name;
 }
 
-// "moving", "… waiting for blue".
+// Returns sign and state, such as "moving" or "… waiting for blue".
 export function doingText(app: DriveApp, agent: number, time: number): string {
   const state = app.drive.stateAt(agent, time);
   const whom = state === kWaiting ? waitText(app, agent, time) : "";
   return signedText(state) + (whom === "" ? "" : ` for ${whom}`);
 }
 
-// With its sign: "✓ done".
+// Returns the name of a state with its sign, such as "✓ done".
 export function signedText(state: number): string {
   return `${markOf(state)} ${stateText(state)}`.trim();
 }
 
-// "0:07 late"; empty: in time.
+// Returns a text such as "0:07 late"; empty if the delay is less than a second.
 export function lateText(seconds: number): string {
   return seconds < 1 ? "" : `${clockText(seconds)} late`;
 }
 
-// Sentence with the delay and the planned end of the action.
+// Returns a sentence with the delay of a robot and the planned end of its next or last action.
 export function lateSentence(app: DriveApp, agent: number, time: number): string {
   const late = lateText(lateness(app, agent, time));
   const all = app.order.actions(agent);
@@ -87,7 +87,7 @@ export function counts(app: DriveApp, time: number): Counts {
   return all;
 }
 
-// Problem of a log that is followed; empty: none.
+// Returns the problem with the followed log; empty: none.
 export function troubleText(log: Log): string {
   if (log.leftOut === 0) return "";
   return log.isNoDrive ? `This is not the log of a drive of this plan: ${log.firstTrouble}`

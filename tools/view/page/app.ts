@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// State of the page: plans, moment, selected robot. Panels read it, change it by its methods, and
-// are notified when anything except time has changed.
+// State of the page: plans, the moment shown, and the selected robot or task. Panels read the state, change
+// it through its methods, and are notified of every change except that of time.
 
 import { Checker, type Violation } from "./check";
 import { compare, type Comparison } from "./compare";
@@ -19,8 +19,8 @@ export interface Viewed {
 
 export class App {
   readonly player: Player;
-  readonly viewed: Viewed[]; // plans with paths, each with its own facts; at most two
-  chosen = -1; // a robot
+  readonly viewed: Viewed[]; // the plans that have paths, with the facts about each; at most two
+  chosen = -1; // the selected robot; -1: none
   chosenTask = -1;
   following = false;
   heat: Heat = "none";
@@ -36,7 +36,7 @@ export class App {
     this.player = new Player(Math.max(0, ...this.viewed.map((v) => v.plan.end)));
   }
 
-  // null unless there are two plans.
+  // Returns the comparison of the two plans, or null if there are fewer.
   get comparison(): Comparison | null {
     if (this.viewed.length < 2) return null;
     this.compared ??= compare(this.model, this.viewed[0], this.viewed[1]);
@@ -51,12 +51,13 @@ export class App {
     for (const listener of this.listeners) listener();
   }
 
-  // Continues the computations that take longer than a frame, first violations, then waits.
+  // Continues the computations that take longer than a frame, for about this time: first the search for
+  // violations, then the search for the causes of waits.
   work(milliseconds: number): void {
     const task = this.viewed.find(({ checker }) => !checker.done)?.checker ??
       this.viewed.find(({ waits }) => !waits.done)?.waits;
     if (!task) return;
-    // Waits are painted (heat) and listed.
+    // The results are painted (as heat) and listed.
     if (task.step(milliseconds)) this.changed();
   }
 
@@ -79,7 +80,7 @@ export class App {
     this.changed();
   }
 
-  // Goes to the moment of an event and selects its robot.
+  // Goes to the time of an event, pauses there and selects the robot of the event.
   show(time: number, agent: number): void {
     this.player.playing = false;
     this.player.go(time);
@@ -97,7 +98,7 @@ function view(model: Model, plan: Plan): Viewed {
   return { plan, facts, checker: new Checker(model, plan), waits: new Waits(model, plan, facts) };
 }
 
-// Returns the violations of a robot, or all violations if there is no robot.
+// Returns the violations in which a robot is involved, or all violations if `agent` is -1.
 export function violationsOf(viewed: Viewed, agent: number): Violation[] {
   const all = viewed.checker.violations;
   return agent < 0 ? all : all.filter((violation) => violation.agents.includes(agent));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The visible part of the world and its scale: converts world units to pixels and back.
+// The visible part of the world and its scale. Converts world units to pixels of the view and back.
 
 import type { Point } from "./model";
 
 export class Camera {
-  // The point of the world in the middle of the view, and pixels for a unit of the world.
+  // The world point in the middle of the view, and the number of pixels per world unit.
   center: Point = { x: 0, y: 0 };
   scale = 1;
   width = 1; // of the view, in pixels
@@ -15,10 +15,11 @@ export class Camera {
   constructor(
     private readonly worldWidth: number,
     private readonly worldHeight: number,
-    private readonly unit: number, // the length of a step
+    private readonly unit: number, // length of a step in world units
   ) {}
 
-  // Sets the size of the view. The point in the middle stays there.
+  // Sets the size of the view in pixels. If the whole world was visible, it stays visible. Otherwise the
+  // world point in the middle of the view stays there.
   resize(width: number, height: number): void {
     const fitted = this.scale <= this.leastScale * 1.001;
     this.width = Math.max(1, width);
@@ -53,13 +54,13 @@ export class Camera {
     };
   }
 
-  // Moves the view by pixels.
+  // Moves the world by (dx, dy) pixels in the view.
   pan(dx: number, dy: number): void {
     const { center, scale } = this;
     this.set({ x: center.x - dx / scale, y: center.y - dy / scale }, scale);
   }
 
-  // Zooms. The point of the world at this point of the view stays there.
+  // Zooms by `factor`. The world point at (x, y), in pixels of the view, stays there.
   zoom(factor: number, x: number, y: number): void {
     const fixed = this.toWorld(x, y);
     const scale = Math.min(this.mostScale, Math.max(this.leastScale, this.scale * factor));
@@ -69,13 +70,13 @@ export class Camera {
     );
   }
 
-  // Moves a point into the middle, and zooms in if the view is far away.
+  // Moves a world point to the middle of the view, and zooms in if the scale is small.
   show(x: number, y: number): void {
     this.set({ x, y }, Math.max(this.scale, Math.min(this.mostScale, kNear / this.unit)));
   }
 
-  // Keeps the edge of the world from passing the middle of the view. In a direction in which the whole world
-  // fits, the world is in the middle.
+  // Sets centre and scale. Keeps the middle of the view within the world, and centres the world in each
+  // dimension in which it fits into the view.
   private set(center: Point, scale: number): void {
     this.scale = scale;
     const keep = (value: number, size: number, view: number) =>
@@ -87,5 +88,5 @@ export class Camera {
   }
 }
 
-const kLargestStep = 200; // pixels
+const kLargestStep = 200; // pixels per step at the greatest zoom
 const kNear = 28;

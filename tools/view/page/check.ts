@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Violations of a plan, from the contract (docs/design.md, sections 1 and 5) and the page's data only:
-// first each robot by itself, then all robots over time, then the claims of the file. The page relies on
-// no other verdict.
+// Finds the violations of a plan, from the contract (docs/design.md, sections 1 and 5) and the data of the
+// page only. It checks first each robot by itself, then collisions, then the claims of the file. The page
+// relies on no other verdict.
 
 import { Crowd, type ReportCollision } from "./crowd";
 import { finish } from "./facts";
@@ -16,21 +16,21 @@ export interface Violation {
   time: number;
   kind: Kind;
   agents: number[];
-  place: number; // -1: none
+  place: number; // where it occurs; -1: nowhere in particular
   text: string;
 }
 
-const kMost = 1000; // violations; further ones are not searched for
-const kStepsAtOnce = 2048; // steps of one robot between two checks of the time
+const kMost = 1000; // violations, after which the search stops
+const kStepsAtOnce = 2048; // steps of one robot between two checks of the elapsed time
 
-// Returns all violations in order of time.
+// Returns all violations, but at most kMost, in order of time.
 export function check(model: Model, plan: Plan): Violation[] {
   const checker = new Checker(model, plan);
   while (!checker.step(1000));
   return checker.violations;
 }
 
-// Searches for violations a few milliseconds at a time.
+// Searches for violations, a few milliseconds per call of step().
 export class Checker {
   readonly violations: Violation[] = [];
   done = false;
@@ -45,7 +45,7 @@ export class Checker {
     this.parts = this.checkAll();
   }
 
-  // Works for about this time. Returns true when the check is complete.
+  // Continues the search for about this time. Returns whether it is complete.
   step(milliseconds: number): boolean {
     const until = performance.now() + milliseconds;
     while (!this.done) {
@@ -65,7 +65,7 @@ export class Checker {
     if (this.violations.length < kMost) this.violations.push({ time, kind, agents, place, text });
   }
 
-  // A generator: it yields where the page may do other work.
+  // Checks everything except the claims. Yields wherever the search may be interrupted.
   private *checkAll(): Generator<void> {
     for (let index = 0; index < this.plan.agents.length; ++index) {
       yield* this.checkAgent(index);
@@ -86,7 +86,7 @@ export class Checker {
     yield* check.run();
   }
 
-  // Finds robots on one place at a time, and robots that swap places in the step before it.
+  // Finds, for each time, robots on the same place, and robots that swapped places in the step before.
   private *checkMoments(): Generator<void> {
     const crowd = new Crowd(this.plan, this.model.world.places);
     const report: ReportCollision = (kind, time, a, b) =>
@@ -123,7 +123,8 @@ export class Checker {
   }
 }
 
-// Checks the status against cost, bound and omega.
+// Returns what is wrong with the claimed bound and status, given the computed cost; null: nothing, or the
+// plan claims no bound.
 function wrongClaim(plan: Plan, cost: number): string | null {
   const { status, lower_bound: bound, omega } = plan.claims;
   if (status === undefined || bound === undefined || omega === undefined) return null;
@@ -135,8 +136,8 @@ function wrongClaim(plan: Plan, cost: number): string | null {
   return `the status is ${status}, but cost and bound make it ${deserved}`;
 }
 
-// cost <= (1 + omega) * bound, exactly: omega is a decimal fraction, perhaps with an exponent
-// ("1e-05"). (Infinite omega promises nothing.)
+// Returns whether cost <= (1 + omega) * bound, in exact arithmetic. `omega` is a decimal fraction, perhaps
+// with an exponent ("1e-05"). If it is infinite, returns false, because the plan promises nothing.
 function accepts(omega: string, cost: number, bound: number): boolean {
   const match = /^([0-9]{1,20})(?:\.([0-9]{1,20}))?(?:e([+-][0-9]{1,2}))?$/.exec(omega);
   if (!match) return false;
@@ -144,13 +145,13 @@ function accepts(omega: string, cost: number, bound: number): boolean {
   const shift = Number(exponent) - fraction.length;
   const ten = BigInt(10);
   const unit = ten ** BigInt(Math.max(0, -shift));
-  const parts = BigInt(whole + fraction) * ten ** BigInt(Math.max(0, shift)); // of a unit
+  const parts = BigInt(whole + fraction) * ten ** BigInt(Math.max(0, shift)); // omega = parts / unit
   return BigInt(cost) * unit <= BigInt(bound) * (unit + parts);
 }
 
 type Report = (kind: Kind, time: number, text: string, place: number) => void;
 
-// Checks one robot without the others.
+// Checks the path, task executions and visits of one robot, without regard to other robots.
 class AgentCheck {
   private steps = 0;
 
@@ -251,7 +252,7 @@ class AgentCheck {
     return [-columns, 1, columns, -1][heading];
   }
 
-  // A turn must be completed once it has begun.
+  // Reports a turn that changes direction before it is complete.
   private checkTurn(time: number, by: number): void {
     const { direction } = this.angle(time);
     if (direction !== 0 && direction !== by)
@@ -276,7 +277,8 @@ class AgentCheck {
         `does not continue ${this.model.tasks[working.task].name}, at which it starts`, -1);
   }
 
-  // In order of begin, each piece need only be compared with the one that ends last so far.
+  // Reports executions of different tasks at the same time. In order of their start times, it compares
+  // each execution only with the earlier one that ends last.
   private checkOverlaps(): void {
     let longest: WorkTime | null = null;
     for (const piece of [...this.plan.work].sort((a, b) => a.begin - b.begin || a.end - b.end)) {
@@ -314,7 +316,7 @@ class AgentCheck {
     this.checkStill(first, piece);
   }
 
-  // A robot at work neither moves nor turns.
+  // Reports a robot that moves or turns while it executes a task, from time `first` on.
   private checkStill(first: number, piece: WorkTime): void {
     const { track, turns } = this.plan;
     const step = Math.min(nextChange(track, first), turns ? nextChange(turns, first) : Infinity);
@@ -347,7 +349,7 @@ class AgentCheck {
     }
   }
 
-  // Returns the first time from `begin` on at which the task counts as visited.
+  // Returns the first time from `begin` on at which the task counts as visited; Infinity: never.
   private visit(index: number, begin: number): number {
     const task = this.model.tasks[index];
     const { track, work } = this.plan;
@@ -376,7 +378,8 @@ class AgentCheck {
     this.checkLastOfOrder(order);
   }
 
-  // Without a destination the robot rests on its last task. If tasks take time, the last one may be elsewhere.
+  // Reports a robot without a destination that does not rest on the last task of its order. If one of its
+  // tasks takes time, the robot may rest on any of them.
   private checkLastOfOrder(order: number[]): void {
     const { goal, tasks } = this.agent;
     if (goal >= 0 || order.length === 0) return;
@@ -390,7 +393,8 @@ class AgentCheck {
   }
 }
 
-// Returns the first time after `begin` at which place or angle differ from those one step earlier.
+// Returns the first time after `begin` at which the value of the track differs from that one step earlier;
+// Infinity: never.
 function nextChange(track: Track | TurnTrack, begin: number): number {
   for (let run = track.run(begin); run < track.runs; ++run)
     if (track.deltas[run] !== 0 || track.jumps[run]) return Math.max(begin, track.times[run]) + 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Palettes of the two colour schemes, after Okabe and Ito (2008): the colours differ for people who
-// cannot see red or green, and in brightness for print.
+// Palettes of the two colour schemes, after Okabe and Ito (2008): people with red-green colour blindness can
+// distinguish the colours, which also differ in brightness for print.
 
 import { dark, light } from "../palette.json";
 
@@ -17,7 +17,7 @@ export interface Colors {
   faint: string;
   doing: string[]; // indexed by Doing
   onRobot: string; // text on robots that move or collide
-  onPale: string; // text on all other robots, which are brighter
+  onPale: string; // text on all other robots, whose colours are brighter
   heading: string;
   collision: string;
   chosen: string;

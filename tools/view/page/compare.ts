@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Differences between two plans for one instance, robot by robot.
+// Differences between two plans for the same instance, robot by robot.
 
 import type { Viewed } from "./app";
 import { visitsOf } from "./facts";
@@ -8,16 +8,16 @@ import type { Track, TurnTrack } from "./track";
 
 export interface Difference {
   agent: number;
-  costs: [number, number]; // NaN: there is no path
+  costs: [number, number]; // in the first and second plan; NaN: no path
   by: number; // second cost minus first cost; NaN: one plan has no path
-  parts: number; // the first moment at which the plans differ; Infinity: never
-  orders: boolean; // whether the tasks are visited in another order
+  parts: number; // first time at which the plans differ for this robot; Infinity: never
+  orders: boolean; // whether the orders of the visits differ
 }
 
 export interface Comparison {
-  all: Difference[]; // of the robots that differ, by number
+  all: Difference[]; // only robots that differ, by ascending number
   costs: [number, number];
-  by: number; // NaN: not every robot has a path in both
+  by: number; // second cost minus first cost; NaN: a robot has no path in one of the plans
 }
 
 export function compare(model: Model, one: Viewed, other: Viewed): Comparison {
@@ -39,7 +39,7 @@ export function compare(model: Model, one: Viewed, other: Viewed): Comparison {
   return { all, costs, by: complete ? costs[1] - costs[0] : NaN };
 }
 
-// Returns the first moment at which place, heading or work differ; Infinity: never.
+// Returns the first time at which places, headings or task executions differ; Infinity: never.
 export function partingTime(a: AgentPlan, b: AgentPlan): number {
   if (a.track.isEmpty || b.track.isEmpty) return a.track.isEmpty && b.track.isEmpty ? Infinity : 0;
   const turns = a.turns && b.turns ? parting(a.turns, b.turns, (t, at) => t.heading(at)) : Infinity;
@@ -47,7 +47,8 @@ export function partingTime(a: AgentPlan, b: AgentPlan): number {
   return Math.min(places, turns, partingOfWork(a, b));
 }
 
-// Within a run of equal steps a difference begins only with the run.
+// Returns the first time at which the values of two tracks differ; Infinity: never. Compares only where
+// a run starts, because from there on equal steps keep equal values equal until a run ends.
 function parting<T extends Track | TurnTrack>(
   a: T, b: T, value: (track: T, time: number) => number,
 ): number {
@@ -64,7 +65,7 @@ function parting<T extends Track | TurnTrack>(
   }
 }
 
-// A robot at rest takes no steps.
+// Returns the change per step in a run; 0 after the last run, because the robot rests.
 function stepOf(track: Track | TurnTrack, run: number): number {
   return run < track.runs && !(track.jumps[run] && !track.deltas[run]) ? track.deltas[run] : 0;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Positions of all robots over time, and the robot on each place. A step of a robot is an addition; its
-// track is read only where a run of equal steps ends.
+// Places of all robots over time, and the robot on each place. A step costs one addition per robot: a track
+// is read only where a run of equal steps ends.
 
 import type { Plan } from "./model";
 
@@ -9,13 +9,13 @@ export type ReportCollision = (kind: "vertex" | "swap", time: number, a: number,
 const kNever = 0x7fffffff;
 
 export class Crowd {
-  readonly here: Int32Array; // by agent; -1: no path
-  readonly before: Int32Array; // one step earlier
-  private readonly delta: Int32Array;
-  private readonly until: Int32Array; // end of the run of delta
-  private readonly runs: Int32Array; // the next run
-  private readonly occupant: Int32Array; // by place; valid if the stamp of the place is the current one
-  private readonly stamp: Int32Array;
+  readonly here: Int32Array; // place by agent; -1: no path
+  readonly before: Int32Array; // `here` one step earlier
+  private readonly delta: Int32Array; // by agent: change of place per step
+  private readonly until: Int32Array; // by agent: time at which the run of `delta` ends
+  private readonly runs: Int32Array; // by agent: index of the next run
+  private readonly occupant: Int32Array; // by place; the robot there at the time `stamp`
+  private readonly stamp: Int32Array; // by place: the last time at which a robot was there; -1: never
   private now = -1;
 
   constructor(
@@ -32,12 +32,12 @@ export class Crowd {
     this.stamp = new Int32Array(places).fill(-1);
   }
 
-  // Goes to the next moment; the first call goes to 0.
+  // Advances to the next time, and reports the collisions then. The first call goes to time 0.
   advance(report: ReportCollision): void {
     const time = ++this.now;
     const { here, before, occupant, stamp } = this;
     if (time > 0) this.move(time);
-    // Until they are stamped for this moment, occupants are those of the moment before.
+    // Occupants are still those of the previous time, because no place has the new stamp yet.
     for (let i = 0; i < here.length; ++i) {
       const to = here[i];
       if (to === before[i] || stamp[to] !== time - 1) continue;
@@ -49,7 +49,7 @@ export class Crowd {
       const place = here[i];
       if (place < 0) continue;
       if (stamp[place] === time) {
-        // Once for each encounter, whatever its duration.
+        // Reports a collision only when it starts, not for robots that stay together.
         const other = occupant[place];
         if (time === 0 || before[other] !== before[i]) report("vertex", time, other, i);
       }
@@ -58,7 +58,7 @@ export class Crowd {
     }
   }
 
-  // Returns the robot on a place now; -1: none.
+  // Returns the robot that is on a place at the current time; -1: none.
   on(place: number): number {
     return this.stamp[place] === this.now ? this.occupant[place] : -1;
   }

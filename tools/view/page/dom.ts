@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Creates elements without markup: an id is always text, whatever it contains.
+// Creates elements without parsing markup, so that an id is always text, whatever it contains.
 
 type Child = Node | string | null;
 type Attributes = Record<string, string | number | boolean | ((event: Event) => void)>;
 
-// An attribute that is a function becomes a listener of the event of that name ("click").
+// Creates an element. An attribute whose value is a function becomes a listener for the event of that name,
+// such as "click".
 export function el<K extends keyof HTMLElementTagNameMap>(
   tag: K, attributes: Attributes = {}, ...children: Child[]
 ): HTMLElementTagNameMap[K] {
@@ -18,7 +19,7 @@ export function el<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-// An icon of 16 x 16 units, given by its outline, in the colour of the surrounding text.
+// Creates an icon in the colour of the surrounding text. `outline`: SVG path data on 16 x 16 units.
 export function icon(outline: string): SVGElement {
   const namespace = "http://www.w3.org/2000/svg";
   const svg = document.createElementNS(namespace, "svg");
@@ -35,7 +36,8 @@ export function plural(count: number, one: string): string {
   return `${count.toLocaleString("en")} ${one}${count === 1 ? "" : "s"}`;
 }
 
-// For text that changes often: updates the document only if the text differs.
+// Sets the text of an element. Updates the document only if the text differs, because it is called in every
+// frame.
 export function setText(element: HTMLElement, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }

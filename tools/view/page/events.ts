@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Events of a plan, as a list to jump to: problems, long waits and their causes, completed tasks, robots
-// that come to rest.
+// Events of a plan, for a list of times to jump to: violations, long waits and their causes, completed tasks,
+// and robots that come to rest.
 
 import type { App, Viewed } from "./app";
 import { plural } from "./dom";
@@ -19,7 +19,7 @@ export interface PlanEvent {
 const kLongWait = 3; // steps; shorter waits are listed only for the selected robot
 const kMostNames = 3;
 
-// In order of time, problems first.
+// Returns the events of all plans: first violations, then all others, each in order of time.
 export function eventsOf(app: App): PlanEvent[] {
   const [first, second] = app.viewed.map((viewed) => eventsOfPlan(app.model, viewed));
   const all = second ? merged(app, first, second) : first ?? [];
@@ -27,7 +27,7 @@ export function eventsOf(app: App): PlanEvent[] {
   return all.sort((a, b) => rank(a) - rank(b) || a.time - b.time);
 }
 
-// An event of both plans is listed once; other events name their plan.
+// Merges the events of two plans. An event that both plans have is listed once. Each event names its plan.
 function merged(app: App, first: PlanEvent[], second: PlanEvent[]): PlanEvent[] {
   const key = ({ kind, text, time }: PlanEvent) => `${kind} ${time} ${text}`;
   const lists = [first, second];
@@ -57,7 +57,7 @@ function eventsOfPlan(model: Model, { checker, facts, plan, waits }: Viewed): Pl
   return [...wrong, ...long, ...done, ...rest].filter((event) => Number.isFinite(event.time));
 }
 
-// "6 steps for a7 to pass"
+// Returns the duration and cause of a wait, such as "6 steps for a7 to pass".
 export function waitText(model: Model, wait: Wait): string {
   const steps = plural(wait.end - wait.begin, "step");
   const names = wait.for.slice(0, kMostNames).map((other) => model.agents[other].name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Facts computed from the paths of a plan: actions of robots, and visits of tasks, with their times.
+// Facts computed from the paths of a plan: activities of robots and visits of tasks, with their times.
 
 import type { Agent, AgentPlan, Model, Plan } from "./model";
 
@@ -14,10 +14,10 @@ export interface Span {
   doing: Doing;
   begin: number;
   end: number; // Infinity: for ever
-  task: number; // the task worked on; -1: not at work
+  task: number; // the task that is executed; -1: none
 }
 
-// Returns the time at which the agent comes to rest: after its last step and its last work.
+// Returns the time at which the agent comes to rest: the end of its last move, turn or task execution.
 export function finish(plan: AgentPlan): number {
   let time = lastChange(plan);
   for (const work of plan.work) time = Math.max(time, work.end);
@@ -38,7 +38,7 @@ function lastChange(plan: AgentPlan): number {
   return last;
 }
 
-// Returns the actions of an agent from 0 on, as consecutive spans. The last one is rest for ever.
+// Returns the activities of an agent from time 0 on, as consecutive spans. The last one is rest for ever.
 export function spans(plan: AgentPlan): Span[] {
   const all: Span[] = [];
   const add = (doing: Doing, begin: number, end: number, task = -1) => {
@@ -52,7 +52,7 @@ export function spans(plan: AgentPlan): Span[] {
   const moves = movingTimes(plan);
   let time = 0;
   let move = 0;
-  // Adds moves and the waits between them up to `end`.
+  // Adds moves, and waits between them, from `time` to `end`.
   const walk = (end: number) => {
     while (time < end) {
       while (move < moves.length && moves[move][1] <= time) ++move;
@@ -99,8 +99,8 @@ function movingTimes(plan: AgentPlan): [number, number][] {
   return merged;
 }
 
-// Returns when the agent has visited a task: the end of its work, or the first time on the place;
-// Infinity: never.
+// Returns the time of the agent's visit of a task: the end of its execution or, for a task without duration,
+// the first time on its place; Infinity: never.
 export function visitTime(model: Model, plan: AgentPlan, task: number): number {
   const { place, duration } = model.tasks[task];
   if (duration > 0) {
@@ -111,9 +111,9 @@ export function visitTime(model: Model, plan: AgentPlan, task: number): number {
 }
 
 export interface TaskFacts {
-  agents: number[]; // in the order of their visits
+  agents: number[]; // in order of their visits
   times: number[]; // of the visits, ascending; Infinity: never
-  begin: number; // when the first agent is there or begins to work; Infinity: never
+  begin: number; // time of the first visit or, if earlier, start of the first execution; Infinity: never
 }
 
 export interface PlanFacts {
@@ -150,11 +150,11 @@ export function visitsBy(facts: TaskFacts, time: number): number {
 
 export interface Visit {
   task: number;
-  begin: number; // begin of the work; without work, the time of the visit
-  time: number; // when the task is visited; Infinity: never
+  begin: number; // start of the execution, at least 0; without an execution, equal to `time`
+  time: number; // of the visit; Infinity: never
 }
 
-// Returns the agent's visits in their order.
+// Returns the agent's visits of its tasks, in order of time.
 export function visitsOf(model: Model, plan: AgentPlan, agent: Agent): Visit[] {
   return agent.tasks
     .map((task) => {

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Robots that are red at a moment because of their own path: an impossible step, work at the wrong
-// place, an end on the wrong place. (The frame detects collisions itself.)
+// Robots that are drawn in red at a given time because of their own path: an impossible step, a task
+// execution on the wrong place, or rest on the wrong place. (Frame detects collisions itself.)
 
 import type { Kind, Violation } from "./check";
 
 const kOfAMoment: Kind[] = ["start", "jump", "turn", "work"];
-const kForEver: Kind[] = ["end", "visit"]; // from their moment on
+const kForEver: Kind[] = ["end", "visit"]; // shown from their time on
 
 export class Faults {
-  private known = -1; // violations used so far; the check may find more
-  private readonly moments = new Map<number, number[]>(); // robots by the end of their step
-  private readonly since: Float64Array; // by robot
+  private known = -1; // number of violations used so far; the check may find more
+  private readonly moments = new Map<number, number[]>(); // robots, by the end of the faulty step
+  private readonly since: Float64Array; // by robot: time from which on it is red; Infinity: never
 
   constructor(robots: number) {
     this.since = new Float64Array(robots).fill(Infinity);
   }
 
-  // A faulty step is marked from its beginning to its end.
+  // Sets `red` for each robot that is at fault at `time`. A faulty step is marked from its beginning to its
+  // end.
   mark(violations: Violation[], time: number, red: Uint8Array): void {
     if (violations.length !== this.known) this.learn(violations);
     if (this.known === 0) return;

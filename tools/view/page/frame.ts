@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All robots at one moment: position, heading, activity, and whether it collides or violates a rule.
-// O(robots), independent of the length of the plan.
+// All robots of a plan at one moment: position, heading, activity, and whether the robot collides or violates
+// a rule. An update takes O(robots) time during playing, independent of the length of the plan.
 
 import type { Violation } from "./check";
 import { Doing, type PlanFacts } from "./facts";
@@ -11,22 +11,22 @@ import type { RobotsNow } from "./robots_now";
 export class Frame implements RobotsNow {
   time = 0;
   readonly count: number;
-  readonly xs: Float32Array; // in the world's units
+  readonly xs: Float32Array; // in world units
   readonly ys: Float32Array;
   readonly angles: Float32Array; // clockwise from up, in radians; NaN: turns freely
   readonly doing: Uint8Array;
-  readonly colliding: Uint8Array; // or with another fault
-  readonly missing: Uint8Array; // no path: not drawn
+  readonly colliding: Uint8Array; // 1 if the robot collides or has another fault
+  readonly missing: Uint8Array; // 1 if the robot has no path; it is not drawn
 
-  private readonly runs: Int32Array; // by agent: the run of its track used last
-  private readonly spanAt: Int32Array;
-  private readonly before: Int32Array; // places one step earlier, at the step, and after it
+  private readonly runs: Int32Array; // by agent: the last used run of its track
+  private readonly spanAt: Int32Array; // by agent: the last used span
+  private readonly before: Int32Array; // places one step before `step`, at `step`, and one step after it
   private readonly here: Int32Array;
   private readonly next: Int32Array;
-  private readonly occupant: Int32Array; // by place
+  private readonly occupant: Int32Array; // by place; valid if its stamp is current
   private readonly stamp: Int32Array;
   private stamps = 0;
-  private step = -1; // the step of `here` and `next`
+  private step = -1; // the whole step at or before `time`
   private readonly faults: Faults;
 
   constructor(
@@ -100,9 +100,9 @@ export class Frame implements RobotsNow {
     return spans[at].doing;
   }
 
-  // Marks robots on one place at this step, and robots that on the way to the next step swap places or
-  // come to one place. So a collision is visible from its beginning to its end. At whole steps, a swap
-  // is marked at its end.
+  // Marks robots that are on the same place at `step`, robots that swap places on the way to the next step
+  // and, in the second half of that way, robots that come to the same place. At a whole step it marks robots
+  // that swapped places on the way to it.
   private findCollisions(part: number): void {
     this.colliding.fill(0);
     this.meet(this.here);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Wheel, drag, pinch and click on a view.
+// Converts wheel, drag, pinch and click on a view to camera movements and clicks.
 
 import type { Camera } from "./camera";
 
@@ -8,7 +8,7 @@ export interface Hand {
   clicked(x: number, y: number): void; // in pixels of the view
 }
 
-const kClickSlack = 4; // pixels by which a click may move
+const kClickSlack = 4; // pixels that the pointer may move during a click
 
 export function listen(view: HTMLElement, camera: Camera, hand: Hand): void {
   const fingers = new Map<number, { x: number; y: number }>();

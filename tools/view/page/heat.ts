@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Heat of each place, from 0 to 1, relative to the maximum.
+// Heat of each place: the square root of its share of the maximum, from 0 to 1.
 
 import type { Viewed } from "./app";
 import { Doing } from "./facts";
@@ -30,7 +30,7 @@ function addWaits(heat: Float32Array, { plan, facts }: Viewed): void {
   });
 }
 
-// Conflicts avoided: places where waiting robots would have met others.
+// Counts, for each place, the waits without which the waiting robot would first have met another one there.
 function addYields(heat: Float32Array, { waits }: Viewed): void {
   for (const wait of waits.all) if (wait.meets >= 0) ++heat[wait.meets];
 }

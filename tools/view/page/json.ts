@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads JSON strictly: anything unexpected is an error with its position.
+// Reads JSON strictly: each unexpected value is an error that names its position.
 
 export class Value {
   constructor(
@@ -23,7 +23,7 @@ export class Value {
     return typeof this.value === "number" && Number.isFinite(this.value);
   }
 
-  // The keys of an object.
+  // Returns the keys of an object.
   names(): string[] {
     const object = this.value;
     if (typeof object !== "object" || object === null || Array.isArray(object))
@@ -40,7 +40,8 @@ export class Value {
     return new Value(value, this.path === "" ? name : `${this.path}.${name}`);
   }
 
-  // Permits only these keys: an unknown key may mean that something else is missing.
+  // Fails if the object has a key other than these, because a key that the reader expects may then be
+  // missing.
   only(...names: string[]): void {
     for (const name of Object.keys(this.value as object))
       if (!names.includes(name)) this.fail(`no '${name.slice(0, 40)}', but ${names.join(", ")}`);
@@ -63,7 +64,7 @@ export class Value {
     return this.value as number;
   }
 
-  // An integer with least <= value < bound.
+  // Returns an integer with least <= value < bound.
   integer(least: number, bound: number): number {
     const value = this.value;
     if (typeof value !== "number" || !Number.isSafeInteger(value) ||
@@ -72,7 +73,7 @@ export class Value {
     return value as number;
   }
 
-  // A list of integers, without a Value for each of them.
+  // Returns a list of integers, without creating a Value for each of them. `length`: -1 for any.
   safeIntegers(length = -1): number[] {
     if (!Array.isArray(this.value) || !this.value.every(Number.isSafeInteger))
       this.fail("a list of whole numbers");
@@ -81,14 +82,14 @@ export class Value {
     return all;
   }
 
-  // Any size: a value beyond 2^53 is rounded, but no correct value is so large.
+  // Returns an integer of any size. A value beyond 2^53 is rounded, but no correct value is so large.
   wholeNumber(): number {
     const value = this.value;
     if (typeof value !== "number" || !Number.isInteger(value)) this.fail("a whole number");
     return value as number;
   }
 
-  // Returns the result of `read`; its errors get this position.
+  // Returns the result of `read` for the text. Errors from `read` get the position of this value.
   as<T>(read: (text: string) => T): T {
     try {
       return read(this.text());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Keyboard control of the whole page.
+// Keyboard control of the plan page and the execution page.
 
 import type { Camera } from "./camera";
 import type { Help } from "./panels/help";

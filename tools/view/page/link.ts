@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A link names a moment and a robot or a task: #t=37&agent=a4. It omits a moment that advances by
-// itself, as in a live drive.
+// Links to a moment and a robot or a task: #t=37&agent=a4. A link from a live display has no moment, because
+// that advances by itself.
 
 import type { Player } from "./player";
 import type { Choice } from "./stage";
 
 type Linked = Choice & { readonly player: Player & { readonly live?: boolean } };
 
-const kSettled = 300; // milliseconds without a change
+const kSettled = 300; // milliseconds without a change, after which the address is updated
 
 export function readLink(app: Linked, hash: string): void {
   const parameters = new URLSearchParams(hash.replace(/^#/, ""));
@@ -27,8 +27,8 @@ export function linkOf(app: Linked): string {
   return "#" + parameters.toString();
 }
 
-// Applies the address, now and when it changes, and updates it to the current state, but not in every
-// frame while the plan plays.
+// Applies the address now and whenever it changes. Updates it to the current state after kSettled without a
+// change, and therefore not in every frame while the plan plays.
 export function linkPage(app: Linked & { onChange(listener: () => void): void }): void {
   let timer = 0;
   app.onChange(() => {

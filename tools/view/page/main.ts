@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Builds the page and runs its loop.
+// Builds the plan page and runs its display loop.
 
 import { App } from "./app";
 import { kDark, kLight } from "./colors";
@@ -18,7 +18,7 @@ import { readModel } from "./read";
 import { Stage } from "./stage";
 
 const kWorkBudget = 6; // milliseconds per frame while the plan plays
-const kLong = 300_000; // characters of data from which on "Reading the plan" is shown first
+const kLong = 300_000; // characters of data, from which on a message is shown before they are read
 
 function begin(): void {
   const data = document.getElementById("grove-data")?.textContent ?? null;
@@ -26,7 +26,7 @@ function begin(): void {
   else if (data.length < kLong) start(data);
   else {
     say("Reading the plan …", document.title, "failure reading");
-    // After the message has been painted.
+    // Starts only when the message has been painted.
     requestAnimationFrame(() => setTimeout(() => start(data)));
   }
 }
@@ -102,11 +102,11 @@ function run(app: App): void {
     requestAnimationFrame(tick);
   };
   requestAnimationFrame(tick);
-  // For tests: the state, and the page's own time in each frame.
+  // For tests: the state, and the milliseconds that the page took for each of the last frames.
   Object.assign(window, { grove: { app, stages, frames } });
 }
 
-// Two plans share the position of the camera.
+// Keeps the cameras of two plans at the same position and scale.
 function joinCameras(stages: Stage[]): void {
   stages.forEach((stage, i) => {
     stage.onCamera = () => {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A small map of the whole world with the visible part, shown while only a part is visible.
+// A small map of the whole world that marks the visible part. It is shown while only a part is visible.
 
 import { Camera } from "./camera";
 import type { Colors } from "./colors";
@@ -9,8 +9,8 @@ import { CanvasRobots } from "./robots_canvas";
 import type { RobotsNow } from "./robots_now";
 import { Scenery, type Shown } from "./scenery";
 
-const kLonger = 140; // pixels of the longer side
-const kLeastRobot = 0.6; // pixels, its radius
+const kLonger = 140; // length of the longer side, in pixels
+const kLeastRobot = 0.6; // minimum radius of a robot, in pixels
 
 export class Minimap {
   readonly element: HTMLElement;

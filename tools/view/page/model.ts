@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Data of the page: the world, robots, tasks and plans. Places are numbers (README.md); time is in
-// steps; angles are in steps of a turn, clockwise from north.
+// Data of the page: the world, robots, tasks and plans. Places are numbers (README.md), times are in steps,
+// and angles are in steps of a turn, clockwise from north.
 
 export interface Point {
   x: number;
@@ -12,36 +12,36 @@ export interface Road {
   to: number;
   steps: number;
   oneWay: boolean;
-  first: number; // its first inner place; it has steps - 1
+  first: number; // its first inner place; the road has steps - 1 of them
 }
 
-// Positions in the world's own units: cells on a grid (y down), metres on a roadmap (y up in the file,
-// down here).
+// World units are cells on a grid, and metres on a roadmap. y points down, although it points up in roadmap
+// files.
 export interface World {
   kind: "grid" | "roadmap";
   places: number;
-  width: number; // extent of the drawing: x and y go from 0 to this
+  width: number; // of the drawing: x from 0 to width, y from 0 to height
   height: number;
-  unit: number; // the length of a step; robots are drawn relative to it
-  xs: Float64Array; // by place
+  unit: number; // length of a step in world units; sizes of robots are relative to it
+  xs: Float64Array; // position by place, in world units
   ys: Float64Array;
-  free: Uint8Array; // by place
+  free: Uint8Array; // by place: 1 if passable
   columns: number; // of a grid
   roads: Road[];
-  vertexNames: string[];
-  mayMove(from: number, to: number): boolean; // in one step
-  place(place: number): string; // name of a place
-  drawn(x: number, y: number): Point; // position of cells (centres are integers) or of metres of the file
+  vertexNames: string[]; // of a roadmap
+  mayMove(from: number, to: number): boolean; // whether this is a possible move of one step
+  place(place: number): string; // the name of a place, for texts
+  drawn(x: number, y: number): Point; // world position of cells (integer centres) or metres of the file
 }
 
 export interface Agent {
   id: string;
   name: string; // the id as displayed
   start: number;
-  goal: number; // -1: none
+  goal: number; // destination; -1: none
   turnSteps: number; // 0: turns freely
   startAngle: Angle;
-  goalAngle: number; // -1: any
+  goalAngle: number; // at the destination; -1: any
   working: { task: number; done: number } | null;
   tasks: number[];
 }
@@ -54,7 +54,8 @@ export interface Task {
   duration: number;
 }
 
-// direction: within a turn, 1 clockwise, -1 the other way; 0: at rest on a heading.
+// An angle and, within a turn, the direction of the turn: 1 clockwise, -1 counterclockwise; 0: not within a
+// turn.
 export interface Angle {
   steps: number;
   direction: number;
@@ -67,10 +68,10 @@ export interface WorkTime {
 }
 
 export interface AgentPlan {
-  cost: number | null; // claimed
+  cost: number | null; // as claimed; null: not claimed
   track: Track;
   turns: TurnTrack | null;
-  tasks: number[] | null; // the order of completion claimed
+  tasks: number[] | null; // claimed order of completion; null: not claimed
   work: WorkTime[];
 }
 
@@ -85,7 +86,7 @@ export interface Plan {
   name: string;
   claims: Claims;
   agents: AgentPlan[]; // empty: no plan
-  end: number; // the last time at which anything changes
+  end: number; // the last time at which something changes
 }
 
 export interface Model {

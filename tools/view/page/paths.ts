@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The path of the selected robot: the whole path pale, the part ahead strong, visits numbered in their
-// order; and, dashed, its path in the other plan.
+// Paints the path of the selected robot: the whole path pale, the part ahead strong, and its visits numbered
+// in their order. Its path in the other plan is dashed.
 
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
@@ -9,14 +9,14 @@ import type { Model, Plan, World } from "./model";
 import { outlined } from "./text";
 import type { Track } from "./track";
 
-const kMostAhead = 400; // steps
-const kLeastNumbered = 9; // pixels of a step
+const kMostAhead = 400; // steps of the part ahead
+const kLeastNumbered = 9; // pixels per step from which on visits are numbered
 
 interface Known {
   agent: number;
-  whole: Path2D; // in the world's units
+  whole: Path2D; // in world units
   other: Path2D | null;
-  orders: Map<number, string>; // by place: "2", "2, 3"
+  orders: Map<number, string>; // by place: the numbers of its visits, "2" or "2, 3"
 }
 
 export class Paths {
@@ -58,7 +58,7 @@ export class Paths {
     if (world.unit * camera.scale >= kLeastNumbered) this.paintOrders(c, camera, orders, colors);
   }
 
-  // Below and to the left of the place, where nothing else is drawn.
+  // Paints the numbers of visits below and to the left of their places, where nothing else is painted.
   private paintOrders(
     c: CanvasRenderingContext2D, camera: Camera, orders: Map<number, string>, colors: Colors,
   ): void {
@@ -94,7 +94,7 @@ export class Paths {
   }
 }
 
-// Each step once, even if it is taken several times.
+// Returns the path with each connection once, even if the robot uses it several times or in both directions.
 function outline(track: Track, world: World): Path2D {
   const path = new Path2D();
   const taken = new Set<number>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scene of a plan, or of an instance without a plan.
+// Makes the scene of a plan, or of an instance without a plan.
 
 import type { App, Viewed } from "./app";
 import { planFacts } from "./facts";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Strict reader of the page's data (README.md). Ids are text; anything unexpected is an error.
+// Reads the data of the page (README.md) strictly: each unexpected value is an error.
 
 import { parse, type Value } from "./json";
 import type { Agent, AgentPlan, Claims, Model, Plan, Task, World } from "./model";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Interface of robot painters, and the labels over robots: ids, a ring around the selected robot, and a
-// dashed ring where this robot is in the other plan.
+// dashed ring at its position in the other plan.
 
 import { shapes } from "../palette.json";
 import type { Camera } from "./camera";
@@ -12,11 +12,11 @@ import type { RobotsNow } from "./robots_now";
 import { isOutside, type Shown } from "./scenery";
 import { outlined } from "./text";
 
-const kLeastLabeled = 22; // pixels per step from which on robots have their ids on them
+const kLeastLabeled = 22; // pixels per step, from which on ids are on the robots instead of above them
 const kLongestLabel = 6;
 const kLongestTag = 14;
 
-// Paints all robots of a frame on a separate canvas over the scenery.
+// Paints all robots at one moment on a canvas of its own, which lies over the scenery.
 export interface RobotPainter {
   paint(camera: Camera, frame: RobotsNow, colors: Colors, ratio: number): void;
 }
@@ -28,7 +28,7 @@ export class Labels {
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly model: Model,
-    private readonly elsewhere: (robot: number, time: number) => Point | null, // in the plan beside this one
+    private readonly elsewhere: (robot: number, time: number) => Point | null, // position in the other plan; null: none
   ) {
     this.ids = labelsOf(model.agents.map(({ name }) => name), kLongestLabel);
   }
@@ -49,7 +49,7 @@ export class Labels {
     if (shown.chosen >= 0) this.paintChosen(c, camera, frame, shown.chosen, step, colors);
   }
 
-  // Returns the robots that get ids: none if there are too many for the space.
+  // Returns the visible robots, which get ids; none if they are too many for the space.
   private inSight(camera: Camera, frame: RobotsNow, step: number): number[] {
     const most = step >= kLeastLabeled ? Infinity : shapes.maxTags;
     const seen: number[] = [];
@@ -109,7 +109,7 @@ export class Labels {
   }
 }
 
-// Paints a sign on the robot's edge, away from its id.
+// Paints the sign of a state on the upper right edge of a robot, away from its id.
 function paintMark(
   c: CanvasRenderingContext2D, at: Point, mark: string, radius: number, colors: Colors,
 ): void {

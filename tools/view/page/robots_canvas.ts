@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robots on a 2D canvas: for browsers without WebGL, and for small pictures.
+// Paints robots on a 2D canvas: for most views, for browsers without WebGL, and for the small map.
 
 import { shapes } from "../palette.json";
 import type { Camera } from "./camera";
@@ -14,7 +14,7 @@ export class CanvasRobots implements RobotPainter {
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly world: World,
-    private readonly least = 1.5, // radius, in pixels
+    private readonly least = 1.5, // minimum radius, in pixels
   ) {}
 
   paint(camera: Camera, frame: RobotsNow, colors: Colors, ratio: number): void {
@@ -24,7 +24,7 @@ export class CanvasRobots implements RobotPainter {
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
     const step = this.world.unit * camera.scale;
     const radius = Math.max(this.least, shapes.robotRadius * step);
-    // One path for all robots with the same activity: a fill for each robot would take far longer.
+    // Paints all robots with the same activity as one path, because a fill for each robot takes far longer.
     for (let doing = Doing.kMoving; doing <= Doing.kResting; ++doing) {
       c.fillStyle = colors.doing[doing];
       c.beginPath();
@@ -55,7 +55,7 @@ function addRobot(c: CanvasRenderingContext2D, x: number, y: number, radius: num
   }
 }
 
-// Larger than a robot and of another shape, because not all people see red.
+// Paints a colliding robot larger and as a star, because some people cannot distinguish red.
 function paintCollision(
   c: CanvasRenderingContext2D, x: number, y: number, radius: number, colors: Colors,
 ): void {

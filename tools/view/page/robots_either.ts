@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Paints robots on a 2D canvas, which is always available, or by WebGL if the canvas takes too long and
-// there is a graphics card. WebGL is requested only then, because browsers report a warning where it is
-// emulated in software.
+// Paints robots on a 2D canvas, which is always available. Changes to WebGL if the canvas takes too long and
+// there is a graphics card. It requests WebGL only then, because browsers that emulate WebGL in software
+// print a warning.
 
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
@@ -11,8 +11,8 @@ import { CanvasRobots } from "./robots_canvas";
 import { GlRobots } from "./robots_gl";
 import type { RobotsNow } from "./robots_now";
 
-const kSlow = 6; // milliseconds per frame
-const kFrames = 30; // frames over which the mean is taken
+const kSlow = 6; // milliseconds per frame, above which the canvas takes too long
+const kFrames = 30; // number of frames whose mean time is compared with kSlow
 
 export class EitherRobots implements RobotPainter {
   private painter: RobotPainter;
@@ -20,7 +20,8 @@ export class EitherRobots implements RobotPainter {
   private frames = 0;
   private spent = 0;
 
-  // One of the two canvases stays empty: a canvas has only one kind of context.
+  // `plain` is for 2D, `fast` for WebGL, because a canvas can have only one kind of context. The unused
+  // canvas is empty.
   constructor(
     private readonly plain: HTMLCanvasElement,
     private readonly fast: HTMLCanvasElement,

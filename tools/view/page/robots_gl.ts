@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Robots by WebGL: one instance of a quad for each robot; shapes and colours are in the shader. A frame
-// sends four numbers per robot to the graphics card.
+// Paints robots by WebGL, with one instance of a quad per robot. The shader computes shapes and colours. Each
+// frame sends four numbers per robot to the graphics card.
 
 import { shapes } from "../palette.json";
 import type { Camera } from "./camera";
@@ -9,7 +9,7 @@ import type { World } from "./model";
 import type { RobotPainter } from "./robots";
 import type { RobotsNow } from "./robots_now";
 
-const kNumbers = 4; // for each robot: x, y, angle, what it does (4: collides; +8: it turns)
+const kNumbers = 4; // per robot: x, y, angle, Doing or kColliding (+ kTurns if it has a heading)
 const kColliding = 4;
 const kTurns = 8;
 
@@ -85,14 +85,14 @@ export class GlRobots implements RobotPainter {
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   }
 
-  // Returns null if there is no WebGL.
+  // Returns null if the browser has no WebGL.
   static on(canvas: HTMLCanvasElement, world: World, count: number): GlRobots | null {
     const gl = canvas.getContext("webgl2");
     return gl ? new GlRobots(gl, world, count) : null;
   }
 
-  // Whether there is a graphics card. WebGL in software is slower than a 2D canvas. (After a request for
-  // WebGL a canvas cannot be used for 2D, so this uses another canvas.)
+  // Whether WebGL runs on a graphics card; in software it is slower than a 2D canvas. Tests this on a new
+  // canvas, so that those of the page remain unchanged.
   static isFast(): boolean {
     const gl = document.createElement("canvas").getContext("webgl2", {
       failIfMajorPerformanceCaveat: true,
@@ -121,7 +121,8 @@ export class GlRobots implements RobotPainter {
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
   }
 
-  // Colliding robots come last, so that they are visible. Returns the number of robots.
+  // Fills `numbers`. Puts colliding robots last, so that no other robot hides them. Returns the number of
+  // robots.
   private gather(frame: RobotsNow): number {
     let at = 0;
     for (let pass = 0; pass < 2; ++pass)
@@ -160,7 +161,7 @@ function link(gl: WebGL2RenderingContext): WebGLProgram {
   return program;
 }
 
-// `divisor` 1: one for each instance.
+// Binds `values` to a shader attribute. `divisor`: 0: one value per vertex; 1: one value per instance.
 function attribute(
   gl: WebGL2RenderingContext, program: WebGLProgram, name: string, size: number, divisor: number,
   values: Float32Array,

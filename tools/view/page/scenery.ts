@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Paints objects that rarely move on a 2D canvas: the world (once for each view), heat, destinations,
-// tasks, names of vertices, and the path of the selected robot.
+// Paints the objects that rarely change, on a 2D canvas: the world (once per camera position), heat,
+// destinations, tasks, vertex names, and the path of the selected robot.
 
 import { shapes } from "../palette.json";
 import type { Camera } from "./camera";
@@ -11,7 +11,7 @@ import { labelsOf } from "./names";
 import { paintTasks } from "./tasks_canvas";
 import { outlined } from "./text";
 
-const kLeastOwned = 34; // pixels per step from which on destinations show the ids of their robots
+const kLeastOwned = 34; // pixels per step, from which on destinations show the ids of their robots
 const kLongestOwner = 9;
 
 export interface PathPainter {
@@ -21,10 +21,10 @@ export interface PathPainter {
 }
 
 export interface Shown {
-  chosen: number; // a robot; -1: none
+  chosen: number; // the selected robot; -1: none
   chosenTask: number;
-  heat: Float32Array | null; // by place, 0 .. 1
-  paths: PathPainter | null; // of the robot chosen
+  heat: Float32Array | null; // by place, from 0 to 1
+  paths: PathPainter | null; // paints the path of the selected robot
   labels: boolean;
 }
 
@@ -36,7 +36,7 @@ export class Scenery {
 
   private readonly tasksByPlace = new Map<number, number[]>();
   private readonly goals: Set<number>;
-  private readonly owners: string[]; // of destinations, by robot
+  private readonly owners: string[]; // by robot: label of its destination
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -68,7 +68,7 @@ export class Scenery {
     if (shown.paths && shown.chosen >= 0) shown.paths.paint(c, camera, shown.chosen, time, colors);
   }
 
-  // Painted again only if the camera has moved.
+  // Paints the world, but only if camera, size or colours have changed.
   private paintGround(
     camera: Camera, colors: Colors, ratio: number, width: number, height: number,
   ): void {
@@ -116,7 +116,7 @@ export class Scenery {
     c.globalAlpha = 1;
   }
 
-  // Destinations and tasks.
+  // Paints destinations and tasks.
   private paintPlaces(
     c: CanvasRenderingContext2D, camera: Camera, time: number, shown: Shown, colors: Colors,
   ): void {
@@ -146,7 +146,8 @@ export class Scenery {
     }
   }
 
-  // At the lower edge of the square, so that it is visible while other robots pass.
+  // Paints the id at the lower edge of the destination's square, so that it is visible while other robots
+  // pass.
   private paintOwner(
     c: CanvasRenderingContext2D, x: number, y: number, robot: number, step: number, colors: Colors,
   ): void {
@@ -156,7 +157,8 @@ export class Scenery {
     outlined(c, this.owners[robot], x, y - 1, colors.faint, colors.floor);
   }
 
-  // Below the objects on the vertex. Of names that would overlap, only the first is painted.
+  // Paints vertex names below the objects on the vertices. If names would overlap, paints only the first of
+  // them.
   private paintNames(c: CanvasRenderingContext2D, camera: Camera, colors: Colors): void {
     const { world } = this.model;
     const step = world.unit * camera.scale;
@@ -179,7 +181,7 @@ export class Scenery {
     }
   }
 
-  // Distance from a vertex to the lower edge of the objects on it.
+  // Returns the distance from a vertex to the lower edge of the objects on it, in pixels.
   private reachOf(vertex: number, step: number): number {
     if (this.tasksByPlace.has(vertex)) return Math.max(2.5, shapes.taskRadius * step);
     if (this.goals.has(vertex)) return Math.max(2, shapes.goalRadius * step);
@@ -191,7 +193,7 @@ export function isOutside(x: number, y: number, size: number, camera: Camera): b
   return x < -size || y < -size || x > camera.width + size || y > camera.height + size;
 }
 
-// One pixel for each cell.
+// Returns an image of the grid, with one pixel per cell.
 function imageOfGrid(world: World, colors: Colors): HTMLCanvasElement {
   const canvas = document.createElement("canvas");
   canvas.width = world.columns;
@@ -207,7 +209,7 @@ function imageOfGrid(world: World, colors: Colors): HTMLCanvasElement {
   return canvas;
 }
 
-// "#rrggbb" as a little-endian pixel.
+// Converts "#rrggbb" to a pixel of image data, on a little-endian machine.
 function packed(color: string): number {
   const value = parseInt(color.slice(1), 16);
   const [r, g, b] = [value >> 16, (value >> 8) & 255, value & 255];
@@ -272,7 +274,7 @@ function vertexRadius(step: number): number {
   return Math.max(1, Math.min(7, 0.2 * step));
 }
 
-// In the middle of each one-way road.
+// Paints an arrow in the middle of each one-way road, in its direction.
 function paintArrows(
   c: CanvasRenderingContext2D, camera: Camera, world: World, step: number, colors: Colors,
 ): void {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene on the page: stacked canvases (scenery, robots, labels) with their camera and, if only a part of
+// Displays a scene on stacked canvases (scenery, robots, labels) with a common camera and, if only a part of
 // the world is visible, a small map.
 
 import { Camera } from "./camera";
@@ -14,11 +14,11 @@ import { EitherRobots } from "./robots_either";
 import { nearest, type RobotsNow } from "./robots_now";
 import { Scenery, type PathPainter, type Shown } from "./scenery";
 
-// The selection, and whether ids are shown.
+// The selection and display options of a page, as a stage needs them.
 export interface Choice {
   readonly model: Model;
   readonly player: { readonly time: number };
-  readonly chosen: number; // a robot; -1: none
+  readonly chosen: number; // the selected robot; -1: none
   readonly chosenTask: number;
   readonly labels: boolean;
   following: boolean;
@@ -26,15 +26,15 @@ export interface Choice {
   chooseTask(task: number): void;
 }
 
-// The contents of a stage.
+// The objects that a stage displays.
 export interface Scene {
   readonly frame: RobotsNow;
-  readonly facts: { readonly tasks: TaskFacts[] } | null; // times of visits
+  readonly facts: { readonly tasks: TaskFacts[] } | null; // times of visits; null: without a plan
   readonly paths: PathPainter | null;
   readonly label: string; // description for screen readers
   readonly caption: string; // empty: none
-  heat(): Float32Array | null; // by place, 0 .. 1
-  elsewhere(robot: number, time: number): Point | null; // in the plan beside this one
+  heat(): Float32Array | null; // by place, from 0 to 1; null: none
+  elsewhere(robot: number, time: number): Point | null; // position in the other plan; null: none
 }
 
 export class Stage {
@@ -46,7 +46,7 @@ export class Stage {
   private readonly labels: Labels;
   private readonly minimap: Minimap;
   private dirty = true; // something other than time has changed
-  private step = -1; // the last one that the scenery shows
+  private step = -1; // the whole step that the scenery shows
 
   constructor(private readonly app: Choice, private readonly scene: Scene) {
     const { model } = app;
@@ -85,7 +85,8 @@ export class Stage {
     this.onCamera();
   }
 
-  // Selects the nearest robot, else the task there, else the robot of the destination there, else nothing.
+  // Selects the nearest robot, otherwise the task at this point, otherwise the robot whose destination is
+  // there, otherwise nothing.
   private click(x: number, y: number): void {
     const { model } = this.app;
     const { world } = model;
@@ -106,7 +107,7 @@ export class Stage {
     this.dirty = true;
   }
 
-  // Draws if something has changed.
+  // Draws the scene if something has changed. `ratio`: device pixels per CSS pixel.
   draw(colors: Colors, ratio: number): void {
     const { player, chosen, following } = this.app;
     if (!this.dirty && this.frame.time === player.time) return;
@@ -118,7 +119,7 @@ export class Stage {
     }
     const shown = this.shown();
     this.fit(ratio);
-    // Tasks change with whole steps.
+    // Tasks change only at whole steps.
     if (this.dirty || Math.floor(player.time) !== this.step)
       this.scenery.paint(this.camera, player.time, shown, colors, ratio);
     this.step = Math.floor(player.time);

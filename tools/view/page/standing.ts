@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An instance without a plan: all robots stay at their starts.
+// A plan in which all robots stay at their starts, to display an instance without a plan.
 
 import type { Agent, Model, Plan } from "./model";
 import { Track, TurnTrack } from "./track";

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Tasks on a 2D canvas: a diamond for each place with tasks, with their number and, where there is
-// space, their ids and progress.
+// Paints tasks on a 2D canvas: a stack of diamonds for each place with tasks, with the number of tasks and,
+// where there is space, the number and progress of each task.
 
 import { shapes } from "../palette.json";
 import type { Colors } from "./colors";
 import { outlined } from "./text";
 
-const kLeastCounted = 12; // pixels per step from which on the number of tasks is shown
-const kLeastTold = 30; // pixels per step from which on each task is listed
+const kLeastCounted = 12; // pixels per step, from which on the number of tasks is shown
+const kLeastTold = 30; // pixels per step, from which on each task is listed
 const kMostTold = 3;
 
 export interface TaskState {
   index: number;
-  begun: boolean; // a robot was there, or is at work
+  begun: boolean; // a robot has visited it or started to execute it
   visits: number;
   total: number;
 }
 
-// Pale while open, yellow after the first visit, grey when done.
+// Paints the tasks on one place: pale at first, yellow after the first one has begun, grey when all are done.
 export function paintTasks(
   c: CanvasRenderingContext2D, x: number, y: number, step: number, tasks: TaskState[],
   isChosen: boolean, colors: Colors,
@@ -53,7 +53,7 @@ function paintDiamond(c: CanvasRenderingContext2D, x: number, y: number, r: numb
   c.stroke();
 }
 
-// "2: 1 of 3", one above the other.
+// Writes a line such as "2: 1 of 3" for each task, one above the other.
 function tellTasks(
   c: CanvasRenderingContext2D, x: number, y: number, step: number, tasks: TaskState[],
   color: string, colors: Colors,

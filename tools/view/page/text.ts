@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Text on a canvas that is readable on any background: it has a rim in the colour of the floor.
+// Writes text on a canvas with a rim, usually in the colour of the floor, so that it is readable on any
+// background.
 
 export function outlined(
   c: CanvasRenderingContext2D, text: string, x: number, y: number, color: string, rim: string,

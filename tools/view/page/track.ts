@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A path as runs of equal steps: place(t) without a number for each time.
+// Paths and turns, stored as runs of equal steps instead of one number per time.
 
 import type { Angle } from "./model";
 
-// Runs of equal steps: from times[i] (exclusive) to times[i + 1], each step adds steps[i]. jump[i]:
-// the run is one step to places[i + 1], whatever the world says of it.
+// A path. In run i, each step from times[i] to times[i + 1] adds deltas[i] to the place. If jumps[i] is 1,
+// the run is a single step to places[i + 1], which need not be possible in the world.
 export class Track {
   constructor(
-    readonly times: Int32Array, // when run i begins; one more for the end
-    readonly places: Int32Array, // where it begins
-    readonly deltas: Int32Array, // what each of its steps adds to the place
+    readonly times: Int32Array, // start of each run, then the end of the last one
+    readonly places: Int32Array, // place at each of `times`
+    readonly deltas: Int32Array, // by run: change of place per step
     readonly jumps: Uint8Array,
   ) {}
 
@@ -17,7 +17,7 @@ export class Track {
   get isEmpty(): boolean {
     return this.times.length === 0;
   }
-  // The last time of the path; from then on the agent stays.
+  // The last time of the path. From then on the agent stays.
   get end(): number {
     return this.isEmpty ? 0 : this.times[this.times.length - 1];
   }
@@ -25,12 +25,13 @@ export class Track {
     return this.deltas.length;
   }
 
-  // Returns the run of the step from `time` to `time` + 1; the number of runs after the end.
+  // Returns the run of the step from `time` to `time` + 1, or the number of runs if the path has ended.
+  // Searches from run `near`.
   run(time: number, near = 0): number {
     const times = this.times;
     let low = near < this.runs && times[near] <= time ? near : 0;
     if (low + 1 <= this.runs && time < times[low + 1]) return low;
-    // Calls usually proceed from one run to the next.
+    // Successive calls usually proceed from one run to the next.
     if (low + 2 <= this.runs && time < times[low + 2]) return low + 1;
     let high = this.runs;
     while (low < high) {
@@ -41,7 +42,7 @@ export class Track {
     return low;
   }
 
-  // All places in order, one for each arrival.
+  // Returns the start and the place after each move, in order, without waits.
   visited(): number[] {
     const all: number[] = [];
     if (!this.isEmpty) all.push(this.places[0]);
@@ -53,7 +54,7 @@ export class Track {
     return all;
   }
 
-  // Returns the first time from `begin` on at which the agent is on this place; Infinity: never.
+  // Returns the first time from `begin` on at which the agent is on `place`; Infinity: never.
   firstTimeOn(place: number, begin: number): number {
     if (this.isEmpty) return Infinity;
     for (let run = this.run(begin); run < this.runs; ++run) {
@@ -74,13 +75,13 @@ export class Track {
   }
 }
 
-// The same for the angle of an agent that turns.
+// The angles over time of an agent for which turning takes time, as runs like those of Track.
 export class TurnTrack {
   constructor(
     readonly times: Int32Array,
-    readonly angles: Int32Array, // not reduced: a turn to the right from 3 goes to 4
+    readonly angles: Int32Array, // at `times`; not reduced modulo 4 turnSteps, so that a turn is monotonic
     readonly deltas: Int8Array,
-    readonly directions: Int8Array, // at the beginning of each run, and at the end: within a turn
+    readonly directions: Int8Array, // at `times`: see Angle
     readonly jumps: Uint8Array,
     readonly turnSteps: number,
   ) {}
@@ -103,7 +104,7 @@ export class TurnTrack {
     return low;
   }
 
-  // Not reduced, for drawing; time may lie between two steps.
+  // Returns the angle for drawing, as in `angles`. `time` need not be whole.
   angle(time: number): number {
     if (time >= this.end) return this.angles[this.runs];
     const run = this.run(Math.floor(time));
@@ -111,7 +112,7 @@ export class TurnTrack {
     return this.angles[run] + this.deltas[run] * (time - this.times[run]);
   }
 
-  // 0 .. 4 turnSteps - 1, at a whole step.
+  // Returns the angle at a whole step, from 0 to 4 turnSteps - 1.
   heading(time: number): number {
     const around = 4 * this.turnSteps;
     return ((this.angle(time) % around) + around) % around;
@@ -135,7 +136,7 @@ interface Step {
 
 const kMostSteps = 1 << 24;
 
-// "12E.@17;3N": steps with their counts.
+// Parses runs of steps, such as "12E.@17;3N" (README.md).
 function* stepsOf(text: string, letters: string): Generator<Step> {
   let count = 0;
   for (let i = 0; i < text.length; ++i) {
@@ -159,7 +160,7 @@ function* stepsOf(text: string, letters: string): Generator<Step> {
   if (count !== 0) throw new Error("a path ends with a number");
 }
 
-// What each letter adds to a place.
+// Return, for each letter of a path, the number that a step adds to the place.
 export function stepsOnGrid(columns: number): Map<string, number> {
   return new Map([["E", 1], ["W", -1], ["S", columns], ["N", -columns], [".", 0]]);
 }
@@ -221,7 +222,7 @@ export function readTrack(text: string, steps: Map<string, number>, places: numb
   );
 }
 
-// "3", "3r", "3l"
+// Parses an angle: "3", or "3r" or "3l" within a turn.
 export function readAngle(text: string, turnSteps: number): Angle {
   const match = /^([0-9]{1,7})([rl]?)$/.exec(text);
   const steps = match ? Number(match[1]) : NaN;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Causes of waits: for each wait, the robots that it would have met without waiting. This is simulated:
-// ghosts of the robot leave during the wait, and each is followed until it meets another robot.
+// Finds the causes of waits: for each wait, the robots that the waiting robot would have met if it had not
+// waited. For this, it simulates ghosts of the robot that leave at different times of the wait, and follows
+// each of them until it meets another robot, for at most kAhead steps.
 
 import { Crowd } from "./crowd";
 import { Doing, type PlanFacts } from "./facts";
@@ -11,23 +12,23 @@ export interface Wait {
   begin: number;
   end: number;
   place: number;
-  for: number[]; // the robots that it would have met, in order of time
-  meets: number; // the place where it would have met the first of them; -1: none
+  for: number[]; // robots that its ghosts meet, in order of time
+  meets: number; // place where a ghost first meets a robot; -1: none
 }
 
-const kMostGhosts = 8; // ghosts per wait
+const kMostGhosts = 8; // maximum number of ghosts per wait
 const kAhead = 40; // steps for which a ghost is followed
-const kGhostsAtOnce = 8192; // steps of ghosts between two checks of the time
+const kGhostsAtOnce = 8192; // steps of ghosts between two checks of the elapsed time
 
-// A ghost takes the robot's steps earlier. Each run of equal steps is read once.
+// A ghost takes the steps that its robot takes after the wait, `earlier` steps earlier.
 interface Ghost {
   wait: Wait;
   earlier: number;
-  from: number; // the time at which it leaves
+  from: number; // time at which it leaves
   place: number;
-  run: number; // of the robot's track
-  delta: number; // of its steps in this run
-  until: number; // the robot's own moment at which the run ends
+  run: number; // current run of the robot's track
+  delta: number; // change of place per step in this run
+  until: number; // end of this run, in time of the robot, not of the ghost
 }
 
 export class Waits {
@@ -46,7 +47,7 @@ export class Waits {
     this.parts = this.find();
   }
 
-  // Works for about this time. Returns true when all waits are known.
+  // Continues the simulation for about this time. Returns whether it is complete.
   step(milliseconds: number): boolean {
     const until = performance.now() + milliseconds;
     while (!this.done && performance.now() < until) this.done = this.parts.next().done ?? false;
@@ -71,7 +72,7 @@ export class Waits {
     }
   }
 
-  // Moves a ghost to `time`. Returns false if it has met a robot or has been followed long enough.
+  // Moves a ghost to `time`. Returns false if it meets a robot or has been followed for kAhead steps.
   private continues(ghost: Ghost, time: number, crowd: Crowd): boolean {
     const { wait } = ghost;
     const before = ghost.place;
@@ -94,7 +95,8 @@ export class Waits {
     ghost.until = isAtRest ? Infinity : track.times[run + 1];
   }
 
-  // The ghosts leave at times spread evenly over the wait.
+  // Returns the ghosts of a wait. They leave at times that are spread evenly over the wait, the first of
+  // them at its start.
   private ghostsOf(wait: Wait): Ghost[] {
     const { track } = this.plan.agents[wait.agent];
     const steps = wait.end - wait.begin;
@@ -109,7 +111,7 @@ export class Waits {
   }
 }
 
-// Returns the robot that has just moved from one place to the other; -1: none.
+// Returns the robot that moved from `from` to `to` in the current step; -1: none.
 function comingFrom(crowd: Crowd, from: number, to: number): number {
   const other = crowd.on(to);
   return other >= 0 && crowd.before[other] === from ? other : -1;

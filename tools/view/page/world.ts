@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The world: positions of places, and possible steps.
+// Reads the world: positions of places, and possible moves.
 
 import { shapes } from "../palette.json";
 import type { Value } from "./json";
@@ -42,7 +42,7 @@ function readGrid(data: Value): World {
   };
 }
 
-// Numbers of free and of blocked cells, alternately.
+// Parses the lengths of alternating runs of free and blocked cells. Returns 1 for each free cell.
 function readFree(text: string, places: number): Uint8Array {
   const free = new Uint8Array(places);
   let at = 0;
@@ -104,7 +104,7 @@ function readRoadmap(data: Value): World {
   };
 }
 
-// Shifts the values so that the least is one margin above 0. Returns their extent with a margin on both sides.
+// Shifts the values so that the least is `margin`. Returns their extent including a margin on both sides.
 function shiftToZero(values: Float64Array, margin: number): number {
   const least = values.reduce((a, b) => Math.min(a, b), Infinity) - margin;
   const most = values.reduce((a, b) => Math.max(a, b), -Infinity) + margin;
@@ -112,7 +112,7 @@ function shiftToZero(values: Float64Array, margin: number): number {
   return most - least;
 }
 
-// Mean length of a step in metres, over roads that have a length.
+// Returns the mean length of a step in metres, over all roads; 1 if no road has a length.
 function lengthOfStep(vertices: Vertex[], roads: Road[]): number {
   let length = 0;
   let steps = 0;
@@ -124,7 +124,8 @@ function lengthOfStep(vertices: Vertex[], roads: Road[]): number {
   return length > 0 ? length / steps : 1;
 }
 
-// Inner places lie evenly between the ends. Roads that join the same vertices lie beside each other.
+// Sets the positions of the inner places of roads, spaced evenly between the ends. Roads that join the same
+// vertices lie beside each other.
 function layRoads(roads: Road[], xs: Float64Array, ys: Float64Array, unit: number): void {
   const beside = new Map<string, Road[]>();
   for (const road of roads) {
@@ -144,7 +145,7 @@ function layRoad(road: Road, bend: number, xs: Float64Array, ys: Float64Array, u
   const a = { x: xs[road.from], y: ys[road.from] };
   const b = { x: xs[road.to], y: ys[road.to] };
   const length = Math.hypot(b.x - a.x, b.y - a.y);
-  // The side does not depend on the direction of the road.
+  // Makes the side of a bend independent of the direction of the road.
   const sign = road.from < road.to ? 1 : -1;
   const across = length > 0
     ? { x: (-(b.y - a.y) / length) * sign, y: ((b.x - a.x) / length) * sign } : { x: 0, y: 0 };
@@ -186,7 +187,7 @@ function movesOnRoads(roads: Road[], vertices: number): (from: number, to: numbe
   };
 }
 
-// Returns the road of an inner place: the last one that begins at or before it.
+// Returns the road of an inner place: the last road whose first inner place is at or before it.
 function lastBefore(roads: Road[], place: number): number {
   let low = 0;
   let high = roads.length - 1;

@@ -15,10 +15,10 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kMinLabeled = 16.0;  // minimum size per step for ids on robots, pixels
+constexpr double kMinLabeled = 16.0;  // minimum length of a step for ids on robots, in pixels
 constexpr double kTagSize = 9.0;      // pixels
 
-// The time from which the agent rests: after its last step and its last task execution.
+// Returns the time from which the agent rests: the end of its last move, turn or task execution.
 Time rest_of(const AgentPlan& plan) {
   Time rest = 0;
   for (std::size_t t = 1; t < plan.path.size(); ++t)
@@ -47,7 +47,8 @@ Drawing::Drawing(const Instance& instance, const Plan* plan)
   }
 }
 
-// Includes all places, because roads may be outside of all vertices.
+// Sets the origin, size and unit of the drawing. The size covers all places, because curved roads
+// may leave the bounding box of the vertices.
 void Drawing::measure_roadmap(const Roadmap& roadmap) {
   double length = 0;
   double steps = 0;
@@ -103,8 +104,9 @@ Point Drawing::point(Place place) const {
   return {at.x + 0.5, at.y + 0.5};
 }
 
-// Roads that join the same vertices are drawn beside each other, and a road from a vertex to itself
-// as a circle, as on the page (page/world.ts).
+// Shifts a place on a road from the straight line `at` to where the page draws it (page/world.ts):
+// roads that join the same vertices are curves beside each other, and a road from a vertex to
+// itself is a circle.
 Point Drawing::beside(Point at, const Roadmap::Spot& spot) const {
   const Roadmap& roadmap = *instance_.roadmap();
   const Road& road = roadmap.roads()[static_cast<std::size_t>(spot.road)];
@@ -174,8 +176,9 @@ std::vector<Drawing::Robot> Drawing::robots(double time) const {
   return all;
 }
 
-// Marks robots that are on one place at this step or, between two steps, exchange places or move to
-// one place. At a whole step, marks robots that exchanged places in the step before.
+// Marks robots that are on one place at the last whole step, robots that swap places in the current
+// step and, in its second half, robots that move to one place. At a whole step, marks robots that
+// swapped places in the previous step.
 void Drawing::mark_collisions(std::vector<Robot>& robots, double time) const {
   const auto step = static_cast<Time>(std::floor(time));
   const double part = time - step;
@@ -228,7 +231,7 @@ void Drawing::draw(cairo_t* cairo, double width, double time) const {
   cairo_restore(cairo);
 }
 
-// Returns the length of a pixel in units of the world.
+// Returns the length of a pixel in world units.
 double Drawing::pixel(cairo_t* cairo) const {
   double length = 1;
   double none = 0;
@@ -249,7 +252,7 @@ void Drawing::draw_grid(cairo_t* cairo) const {
     cairo_line_to(cairo, grid.width(), y);
   }
   cairo_stroke(cairo);
-  // Merges runs of blocked cells into fewer shapes.
+  // Draws each horizontal run of blocked cells as one rectangle.
   set(cairo, kWall);
   for (int y = 0; y < grid.height(); ++y)
     for (int x = 0; x < grid.width();) {
@@ -287,7 +290,7 @@ void Drawing::draw_roads(cairo_t* cairo) const {
   }
 }
 
-// Draws an arrow in the middle of a road, in its direction.
+// Adds an arrow in the middle of a one-way road, in its direction, to the path.
 void Drawing::draw_arrow(cairo_t* cairo, int road) const {
   const Roadmap& roadmap = *instance_.roadmap();
   const Time middle = (roadmap.roads()[static_cast<std::size_t>(road)].steps - 1) / 2;
@@ -316,8 +319,8 @@ void Drawing::draw_goals(cairo_t* cairo) const {
   cairo_stroke(cairo);
 }
 
-// Tasks on one place are a stack of diamonds with their number: pale, yellow after the start, and
-// completely grey when done.
+// Draws the tasks on each place as a stack of diamonds with their number: pale before the first
+// visit or task execution starts, then yellow, and grey when all agents have visited all tasks.
 void Drawing::draw_tasks(cairo_t* cairo, double time) const {
   struct Progress {
     int tasks = 0;
@@ -346,7 +349,8 @@ void Drawing::draw_tasks(cairo_t* cairo, double time) const {
   }
 }
 
-// Names are below the vertices. Of names that would cover each other, only the first is drawn.
+// Draws the names below the vertices. If names would overlap, draws only the first of them. Draws
+// no names if they would be too dense.
 void Drawing::draw_vertex_names(cairo_t* cairo) const {
   const double size = kTagSize * pixel(cairo);
   const auto& vertices = instance_.roadmap()->vertices();
@@ -395,7 +399,7 @@ void Drawing::draw_robot(cairo_t* cairo, const Robot& robot) const {
   }
 }
 
-// On the robot, or beside it if it is small.
+// Draws the id on the robot or, if the robot is small, above it.
 void Drawing::draw_name(cairo_t* cairo, const Robot& robot, const std::string& id) const {
   const double r = kRobotRadius * unit_;
   if (unit_ >= kMinLabeled * pixel(cairo)) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A moment of a plan, drawn with cairo; the same drawing is used for SVG, PNG and the frames of a
-// GIF.
+// Draws one moment of a plan with cairo, for SVG, PNG and the frames of a GIF.
 #pragma once
 
 #include <cairo/cairo.h>
@@ -13,8 +12,9 @@
 
 namespace grove::detail {
 
-// Draws an instance and, if there is one, a plan; otherwise all agents at their starts. Holds
-// references: both must outlive it. The plan may be invalid; agents without a path are left out.
+// Draws an instance with a plan or, if `plan` is nullptr, with all agents at their starts. Holds
+// references to both, which must outlive it. The plan may be invalid; agents without a path are
+// left out.
 class Drawing {
  public:
   Drawing(const Instance& instance, const Plan* plan);
@@ -25,18 +25,18 @@ class Drawing {
   double shape() const { return height_ / width_; }
   bool has_plan() const { return plan_ != &standing_; }
   const Instance& instance() const { return instance_; }
-  // The last time at which something changes, steps.
+  // Time from which on all agents rest, in steps; 0 without a plan.
   Time end() const { return end_; }
 
-  // Fills `width` x (`width` * shape()) units of `cairo` from its origin. `time` may be between two
-  // steps.
+  // Fills `width` x (`width` * shape()) units of `cairo` from its origin. `time` is in steps and
+  // need not be whole.
   void draw(cairo_t* cairo, double width, double time) const;
 
  private:
   struct Robot {
     Point at;
     double angle;  // clockwise from up, in radians
-    bool turns;    // whether it needs time to turn
+    bool turns;    // whether turns take time, so that its heading is drawn
     int doing;     // index into kDoing
     bool collides;
   };
@@ -63,12 +63,12 @@ class Drawing {
   const Instance& instance_;
   const Plan standing_;
   const Plan* plan_;
-  double width_ = 1;  // in units of the world: cells or metres
+  double width_ = 1;  // in world units: cells or metres
   double height_ = 1;
   Point origin_;
-  double unit_ = 1;  // length of a step
+  double unit_ = 1;  // length of a step in world units
   Time end_ = 0;
-  std::vector<Time> rests_;                // by agent: time from which it rests
+  std::vector<Time> rests_;                // by agent: time from which on it rests
   std::vector<std::vector<Time>> visits_;  // by task: times at which its agents have visited it
   std::vector<Time> begins_;               // by task: start of the first visit or task execution
 };

@@ -8,12 +8,12 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kSize = 10;  // of a shape, pixels
+constexpr double kSize = 10;  // of a shape, in pixels
 constexpr Point kMiddle{kSize / 2, 9};
 constexpr double kTextAt = 1.5 * kSize;
 constexpr double kBetween = 14;
 
-// Draws the text of a shape and moves to the next shape.
+// Draws the text of a shape and moves the origin to the next shape.
 void say(cairo_t* cairo, const char* text) {
   set(cairo, kText);
   cairo_text_extents_t extents;

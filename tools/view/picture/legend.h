@@ -8,7 +8,7 @@
 
 namespace grove::detail {
 
-// Draws one line from the origin. Shapes that do not occur are left out.
+// Draws the legend in one line from the origin. Leaves out shapes that the picture does not have.
 void draw_legend(cairo_t* cairo, const Instance& instance, bool has_plan);
 
 }  // namespace grove::detail

@@ -29,9 +29,9 @@ using Surface = std::unique_ptr<cairo_surface_t, Free>;
 using Context = std::unique_ptr<cairo_t, Free>;
 
 constexpr int kGap = 12;           // pixels between two moments
-constexpr int kMaxPixels = 30000;  // maximum width and height: cairo's limit
-constexpr int kCaption = 20;       // height of a caption, below each moment
-constexpr int kLegend = 26;        // height of the legend, at the bottom
+constexpr int kMaxPixels = 30000;  // maximum width and height; cairo's limit is 32767
+constexpr int kCaption = 20;       // height of the caption below each moment
+constexpr int kLegend = 26;        // height of the legend at the bottom
 constexpr int kMinWidthWithLegend = 640;
 
 cairo_status_t append(void* text, const unsigned char* bytes, unsigned length) {
@@ -44,7 +44,8 @@ void require(cairo_status_t status) {
     throw std::runtime_error(fmt::format("cairo: {}", cairo_status_to_string(status)));
 }
 
-// Layout of the moments of a strip, each with its caption below, and the legend.
+// Layout in pixels: moments in rows of at most four, each with its caption below, and the legend at
+// the bottom.
 struct Strip {
   Strip(const Drawing& drawing, std::size_t count, int width, bool captioned)
       : panel_width(width),
@@ -70,7 +71,7 @@ struct Strip {
   int legend;
 };
 
-// Draws "t = 12" below the middle of a moment.
+// Draws a caption such as "t = 12", centred below a moment.
 void draw_caption(cairo_t* cairo, const Strip& strip, double moment) {
   const std::string text = fmt::format("t = {}", moment);
   cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
@@ -127,7 +128,7 @@ std::vector<Pixel> pixels_of(cairo_surface_t* surface) {
   return pixels;
 }
 
-// The most frequent colours; other colours are mapped to the nearest of them.
+// The 255 most frequent colours. Maps any other colour to the nearest of them.
 class Palette {
  public:
   static constexpr int kTransparent = 255;
@@ -209,7 +210,7 @@ class GifWriter {
     if (file_ != nullptr) EGifCloseFile(file_, nullptr);
   }
 
-  // Writes only the smallest rectangle that contains all changes.
+  // Appends a frame, of which it writes only the smallest rectangle that contains all changes.
   void add(const std::vector<GifByteType>& frame, int centiseconds) {
     const Box box = last_.empty() ? Box{0, 0, width_, height_} : changed(frame);
     const GraphicsControlBlock control{
@@ -249,7 +250,7 @@ class GifWriter {
   }
 
   Box changed(const std::vector<GifByteType>& frame) const {
-    Box box{width_, height_, 0, 0};  // minima and maxima, empty at first
+    Box box{width_, height_, 0, 0};  // least x and y, greatest x and y plus 1; empty at first
     for (int y = 0; y < height_; ++y)
       for (int x = 0; x < width_; ++x) {
         if (frame[index(x, y)] == last_[index(x, y)]) continue;
@@ -277,10 +278,10 @@ class GifWriter {
 
 constexpr int kMaxFrames = 2000;
 constexpr double kFramesPerSecond = 20;
-constexpr int kRestAtTheEnd = 150;  // pause at the end, hundredths of a second
+constexpr int kRestAtTheEnd = 150;  // pause at the end, in hundredths of a second
 
-// Returns the number of frames between two steps, so that motion looks smooth; fewer if there would
-// be too many frames.
+// Returns the number of frames per step, from 1 to 20: enough for kFramesPerSecond, but fewer if
+// the whole plan would have more than kMaxFrames.
 int frames_per_step(Time end, double steps_per_second) {
   const int wanted = static_cast<int>(std::lround(kFramesPerSecond / steps_per_second));
   const int allowed = end > 0 ? kMaxFrames / end : 1;
@@ -323,7 +324,7 @@ std::string gif_picture(const Drawing& drawing, int width, double steps_per_seco
     require(cairo_status(cairo.get()));
     return pixels_of(surface.get());
   };
-  // Takes the palette from a sample of the moments.
+  // Takes the palette from five moments, spread evenly over the plan.
   std::unordered_map<Pixel, std::int64_t> counts;
   for (int i = 0; i <= 4; ++i)
     for (const Pixel pixel : frame(drawing.end() * i / 4.0)) ++counts[pixel];

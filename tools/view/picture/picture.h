@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Encodes pictures as files, in memory.
+// Encodes pictures as the bytes of SVG, PNG and GIF files.
 #pragma once
 
 #include <span>
@@ -9,11 +9,13 @@
 
 namespace grove::detail {
 
-// Moments side by side, row by row; each `width` pixels wide.
+// Return a picture of the moments (in steps), at most four per row, each `width` pixels wide. Throw
+// std::invalid_argument if the picture is too large for cairo.
 std::string svg_picture(const Drawing& drawing, std::span<const double> moments, int width);
 std::string png_picture(const Drawing& drawing, std::span<const double> moments, int width);
 
-// The whole plan in an endless loop, with a pause at the end.
+// Returns an animation of the whole plan, `width` pixels wide, that repeats endlessly with a pause
+// at the end.
 std::string gif_picture(const Drawing& drawing, int width, double steps_per_second);
 
 }  // namespace grove::detail

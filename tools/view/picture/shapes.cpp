@@ -23,8 +23,8 @@ void center_text(cairo_t* cairo, const std::string& text, Point at, double size,
   cairo_show_text(cairo, text.c_str());
 }
 
-// Draws the outline as shifted copies of the text, because outlines of letters would make an SVG
-// file large.
+// Draws the outline as shifted copies of the text, because stroked letters would make an SVG file
+// large.
 void outlined_text(cairo_t* cairo, const std::string& text, Point at, double size,
                    const Color& color) {
   cairo_set_font_size(cairo, size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shapes and texts that are drawn with cairo more than once.
+// Shapes and texts that several parts of a picture draw with cairo.
 #pragma once
 
 #include <cairo/cairo.h>
@@ -14,12 +14,13 @@ namespace grove::detail {
 
 void set(cairo_t* cairo, const Color& color);
 
-// Centred on `at`; reduced in size if it would be wider than `max`.
+// Draws a text of font size `size` centred on `at`; smaller if it would be wider than `max`.
 void center_text(cairo_t* cairo, const std::string& text, Point at, double size, double max);
-// The middle of the baseline is at `at`. The text has an outline in the colour of the floor.
+// Draws a text with `at` at the middle of its baseline, and an outline in the colour of the floor.
 void outlined_text(cairo_t* cairo, const std::string& text, Point at, double size,
                    const Color& color);
-// Shortens an id to at most `max` bytes, between characters.
+// Returns the id or, if it has more than `max` bytes, its first characters, in at most `max` - 1
+// bytes, and an ellipsis.
 std::string shortened(const std::string& id, std::size_t max);
 
 void disc(cairo_t* cairo, Point at, double radius, const Color& color);

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// State of the page: the selected statement of the certificate, the selected step of its proof, and the
-// unfolded steps.
+// State of the page: the selected statement of the certificate (a lemma or the theorem), the selected step of
+// its proof, and the unfolded steps.
 
 import type { Model } from "../page/model";
 import type { Choice } from "../page/stage";
 import { constraintOf, type Certificate, type Statement, type Step } from "./certificate";
 
-const kFirstRows = 60; // approximate number of steps unfolded at first
+const kFirstRows = 60; // approximate number of visible steps at first
 
 export class ProofApp implements Choice {
-  readonly player = { time: 0 }; // (all agents are at their starts)
+  readonly player = { time: 0 }; // the map always shows time 0, with all agents at their starts
   readonly labels = true;
   following = false;
   chosenTask = -1;
   statement: Statement;
   step: Step;
-  readonly open = new Set<Step>();
-  marked = -1; // the agent selected on the map
+  readonly open = new Set<Step>(); // unfolded steps
+  marked = -1; // the agent selected on the map; -1: none
   private readonly listeners: (() => void)[] = [];
 
   constructor(readonly model: Model, readonly certificate: Certificate) {
@@ -25,7 +25,7 @@ export class ProofApp implements Choice {
     for (const statement of [...certificate.lemmas, certificate.theorem]) this.openFirst(statement);
   }
 
-  // Unfolds level by level.
+  // Unfolds the first steps of a proof, level by level, until about kFirstRows are visible.
   private openFirst({ root }: Statement): void {
     const level = [root];
     for (let i = 0; i < level.length && level.length < kFirstRows; ++i) {
@@ -38,7 +38,7 @@ export class ProofApp implements Choice {
     return this.marked >= 0 ? this.marked : this.agents[0] ?? -1;
   }
 
-  // The agents that the step refers to.
+  // Returns the agents that the selected step refers to.
   get agents(): number[] {
     const { step, statement, certificate } = this;
     const constraint = constraintOf(step);
@@ -69,7 +69,7 @@ export class ProofApp implements Choice {
     this.changed();
   }
 
-  // Folds or unfolds a step. If this hides the selected step, the folded step is selected.
+  // Folds or unfolds a step. If folding hides the selected step, selects the folded step instead.
   unfold(step: Step, isOpen: boolean): void {
     if (isOpen) this.open.add(step);
     else this.open.delete(step);
@@ -86,7 +86,7 @@ export class ProofApp implements Choice {
     this.changed();
   }
 
-  // Rows in the order in which they are displayed.
+  // Returns the visible steps, one per row, in depth-first order.
   get rows(): Step[] {
     const rows: Step[] = [];
     const left = [this.statement.root];

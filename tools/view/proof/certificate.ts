@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parser of certificates (docs/proof.md): lemmas and the theorem, each with its tree. `grove view` has
-// already checked every line against the instance.
+// Parses certificates (docs/proof.md): the lemmas and the theorem, each with the tree of its proof. `grove
+// view` has already checked each line against the instance.
 
 import type { Model } from "../page/model";
 
@@ -9,39 +9,40 @@ export type Kind = "bar" | "move" | "norest" | "rest" | "pass" | "stop" | "nosto
 export interface Constraint {
   agent: number;
   kind: Kind;
-  places: number[]; // for moves and passages: from, to; for stops: none
-  begin: number; // for constraints with one time T, both begin and end are T
+  places: number[]; // `move` and `pass`: from, to; `stop` and `nostop`: none; others: one place
+  begin: number; // equal to `end` for constraints with a single time
   end: number; // Infinity: for ever
-  stop: number; // number of the stop, from 0
+  stop: number; // number among the agent's stops (docs/proof.md), from 0; -1: none
   task: number;
 }
 
 export interface Row {
   kind: "place" | "edge" | "finish";
   numbers: number[];
-  price: number; // in 1024ths of a step
+  price: number; // multiplier, in 1024ths of a step
 }
 
-// A step of a proof. Its constraints are the sides of the steps above it.
+// A node of a proof tree. It proves the statement under additional constraints: one side of each split above
+// it, on the way from the root.
 export interface Step {
   line: number;
   kind: "leaf" | "split" | "later" | "joint" | "prices";
-  lemmas: number[]; // lemmas that it names
-  sides: Constraint[]; // the two constraints of a split; empty for other steps
-  children: Step[]; // two, or none
+  lemmas: number[]; // numbers of the lemmas that it uses
+  sides: Constraint[]; // the two constraints of `split` and `later`; empty for other steps
+  children: Step[]; // one per side
   rows: Row[];
   above: { step: Step; side: number } | null;
   depth: number;
-  leaves: number; // steps without a split, at or below this step
+  leaves: number; // number of steps without children in the subtree of this step
 }
 
 export interface Statement {
-  number: number; // of the lemma; -1: the theorem
-  bound: number; // Infinity: there is no plan
+  number: number; // of the lemma, from 0; -1: the theorem
+  bound: number; // lower bound on the sum of the agents' costs; Infinity: there is no plan
   agents: number[];
   constraints: Constraint[];
   root: Step;
-  steps: Step[]; // all steps in the order of the file
+  steps: Step[]; // all steps, in the order of the file
 }
 
 export interface Certificate {
@@ -60,7 +61,7 @@ class Lines {
     return this.at;
   }
 
-  // The first word of the next line.
+  // Goes to the next line and returns its first word.
   next(): string {
     if (this.at === this.lines.length) this.fail("another line");
     this.words = this.lines[this.at++].split(" ");
@@ -75,7 +76,7 @@ class Lines {
     return this.words.shift() ?? this.fail("another word");
   }
 
-  // A number or inf.
+  // Returns the next word, which is a number less than `below`, or "inf" if `below` is infinite.
   integer(below = Infinity): number {
     const word = this.word();
     const value = word === "inf" ? Infinity : /^[0-9]+$/.test(word) ? Number(word) : NaN;
@@ -116,7 +117,7 @@ class Reader {
     return { following, lemmas: this.lemmas, theorem };
   }
 
-  // Parses a statement; `first` is the first word after it.
+  // Parses a lemma. Returns the first word of the line after it.
   private readLemma(): string {
     const { lines } = this;
     const bound = lines.integer();
@@ -129,7 +130,8 @@ class Reader {
     return lines.next();
   }
 
-  // No recursion, because a proof may be as deep as it is long.
+  // Parses the proof of a statement. `first`: the first word of the root step. Without recursion, because a
+  // proof can be as deep as it is long.
   private statement(
     number: number, bound: number, agents: number[], constraints: Constraint[], first: string,
   ): Statement {
@@ -213,7 +215,7 @@ class Reader {
     return constraint;
   }
 
-  // "A T": agent A has a goal and does not come to rest there by time T.
+  // Parses "A T": agent A has a destination and does not come to rest there by time T.
   private later(): Constraint {
     const agent = this.agent();
     const time = this.lines.integer();
@@ -246,12 +248,12 @@ function isOpen({ sides, children }: Step): boolean {
   return children.length < sides.length;
 }
 
-// The constraint that leads to a step from the one above it; null: there is none.
+// Returns the constraint that leads to a step from the step above it; null for the root.
 export function constraintOf({ above }: Step): Constraint | null {
   return above && above.step.sides[above.side];
 }
 
-// Returns the constraints at a step in addition to those of the statement, from the root down.
+// Returns the constraints in force at a step in addition to those of the statement, in order from the root.
 export function constraintsAt(step: Step): Constraint[] {
   const constraints: Constraint[] = [];
   for (let at: Step | null = step; at; at = at.above && at.above.step) {
@@ -261,7 +263,7 @@ export function constraintsAt(step: Step): Constraint[] {
   return constraints.reverse();
 }
 
-// Returns all statements whose proofs name this lemma.
+// Returns all statements whose proofs use this lemma.
 export function usersOf({ lemmas, theorem }: Certificate, lemma: number): Statement[] {
   return [...lemmas, theorem].filter(({ steps }) => steps.some((step) => step.lemmas.includes(lemma)));
 }

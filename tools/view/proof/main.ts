@@ -52,11 +52,11 @@ function show(app: ProofApp): void {
     requestAnimationFrame(tick);
   };
   requestAnimationFrame(tick);
-  // For tests.
+  // For tests: the state of the page.
   Object.assign(window, { grove: { app, stages: [stage] } });
 }
 
-// (At time 0 no task is done.)
+// Whether the legend of this page has this entry. At time 0, no task has begun or is done.
 function isOpen([kind]: [string, string]): boolean {
   return kind === "task" || kind === "goal";
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Marks on the map: the places of the selected step with its times; and for its agents dashed straight
-// lines from the start over these places to the goal.
+// Marks on the map for the selected step: the places and times of its constraints and, for its first two
+// agents, dashed straight lines from the start through the places of a constraint to the destination.
 
 import type { Camera } from "../page/camera";
 import type { Colors } from "../page/colors";
@@ -12,9 +12,10 @@ import { constraintOf, type Constraint } from "./certificate";
 
 const kDashes = [[7, 4], [2, 4]]; // for the first and the second agent
 const kHalf = 0.46; // half the side of the square on a place, in steps
-const kLeastWritten = 24; // half side in pixels from which on times are written in the square
+const kLeastWritten = 24; // half side in pixels, from which on times are written in the square
 
-// The constraints that the map marks: both sides of a split, else the one that leads to the step.
+// Returns the constraints that the map marks: both sides of a split, otherwise the constraint that leads to
+// the step or, at the root, the constraints of the statement.
 export function constraintsShown({ step, statement }: ProofApp): Constraint[] {
   if (step.sides.length > 0) return step.sides;
   const constraint = constraintOf(step);
@@ -107,7 +108,8 @@ export class Marks implements PathPainter {
   }
 }
 
-// In the square, over the agent there; if the square is small, beside it on the side with space.
+// Writes a text at the upper edge of a square, above the agent there, or beside a small square, on the side
+// with space.
 function paintText(
   c: CanvasRenderingContext2D, camera: Camera, { x, y }: Point, text: string, half: number, colors: Colors,
 ): void {
@@ -119,7 +121,8 @@ function paintText(
   outlined(c, text, x + aside, isLarge ? y - half + 1 : y, colors.chosen, colors.floor);
 }
 
-// For each place the sum of its prices over all times, relative to the maximum.
+// Returns, for each place, the sum of its multipliers over all times, relative to the maximum; null if the
+// step has no multipliers. A multiplier of a move counts half at each end.
 export function priceHeat({ model, step }: ProofApp): Float32Array | null {
   if (step.kind !== "prices") return null;
   const heat = new Float32Array(model.world.places);

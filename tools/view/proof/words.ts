@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Texts of constraints, steps and statements.
+// Texts for constraints, steps and statements.
 
 import { plural } from "../page/dom";
 import type { Model } from "../page/model";
@@ -38,7 +38,7 @@ export function constraintText({ agents, tasks, world }: Model, constraint: Cons
   }
 }
 
-// Text of a step's row: the constraint that leads to it.
+// Returns the text in the row of a step: the constraint that leads to it.
 export function stepText(model: Model, statement: Statement, step: Step): string {
   const constraint = constraintOf(step);
   if (!constraint) return statement.constraints.length > 0 ? "All plans that satisfy its constraints" : "All plans";
@@ -46,7 +46,7 @@ export function stepText(model: Model, statement: Statement, step: Step): string
   return `${model.agents[constraint.agent].name} costs more than ${constraint.end}`;
 }
 
-// Short note on the proof of a step.
+// Returns a short note on how a step is proven.
 export function noteText({ kind, lemmas, leaves, rows }: Step): string {
   switch (kind) {
     case "leaf": return lemmas.length === 0 ? "individual costs" : lemmasText(lemmas);
@@ -82,7 +82,7 @@ export function howText({ theorem, lemmas }: Certificate): string {
   return `proven by ${plural(splits, "split")}, ${leavesText(root.leaves)} and ${plural(lemmas.length, "lemma")}`;
 }
 
-// What the theorem implies for a plan.
+// Returns what the theorem implies for a plan of this cost.
 export function planText(cost: number, bound: number): string {
   if (cost < bound) return "which is less: one of the two is wrong";
   if (cost === bound) return "so it is optimal";
@@ -96,8 +96,8 @@ export function lemmaText(model: Model, { agents, bound }: Statement): string {
   return `${who} ${agents.length === 1 ? "costs" : "together cost"} ${numberText(bound)} or more`;
 }
 
-// The reason why each plan satisfies one of the two constraints; empty: docs/proof.md has no such split.
-// (The page does not check that the places of passages belong to a corridor.)
+// Returns the reason why each plan satisfies at least one of the two constraints; empty: docs/proof.md has no
+// such split. Does not check that the places of `pass` belong to a corridor.
 export function whyText(model: Model, following: boolean, step: Step): string {
   const { world, agents } = model;
   const [a, b] = step.sides;
@@ -130,7 +130,7 @@ export function whyText(model: Model, following: boolean, step: Step): string {
   }
 }
 
-// The reason why a step without a split proves its statement.
+// Returns the reason why a step without children proves its statement.
 export function closedText(model: Model, { agents, bound }: Statement, step: Step): string {
   const much = bound === Infinity ? "there is no path" : `together ${numberText(bound)} or more`;
   switch (step.kind) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A chart over time: step lines and areas, marks, and a reading at a moment that is set by the pointer or
-// the arrow keys.
+// A chart over time with step lines, areas and marks. It shows the values at a time that the pointer or the
+// arrow keys set.
 
 import { el, setText } from "../page/dom";
 import type { Scale } from "./scale";
@@ -17,14 +17,14 @@ export interface Series {
   name: string;
   kind: string; // CSS class of its elements
   points: Point[];
-  until?: Point[]; // for an area: its lower edge, at the same times
+  until?: Point[]; // only for an area: its lower edge, at the same times
 }
 
 export interface Mark {
   time: number;
   value: number;
-  shape: string; // a letter or sign
-  kind: string; // as of a series
+  shape: string; // a character
+  kind: string; // CSS class, as for a series
   title: string;
 }
 
@@ -36,8 +36,8 @@ export interface Contents {
   series: Series[];
   marks: Mark[];
   label(value: number): string;
-  read(time: number): string; // text for a moment
-  stops: number[]; // moments for the arrow keys
+  read(time: number): string; // returns the text for a time
+  stops: number[]; // times that the arrow keys go to
 }
 
 const kMostPoints = 2000;
@@ -98,7 +98,7 @@ export class Chart {
     this.read(this.time);
   }
 
-  // The inverse of an increasing scale.
+  // Returns the time at a position on the time axis (0 to 1), by bisection, because Scale has no inverse.
   private timeAt(part: number): number {
     let [least, most] = [0, this.contents!.end];
     for (let i = 0; i < 40; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contents of the charts of a run: bound and incumbent, nodes, memory.
+// Contents of the charts of a run: bound and incumbent, nodes, and memory.
 
 import type { Contents, Mark, Point } from "./chart";
 import type { Row, Run } from "./model";
@@ -8,7 +8,7 @@ import type { Scale } from "./scale";
 import { linear, logarithmic } from "./scale";
 import { kBoundSources, kPlanSources, megabytes, number, percent, seconds } from "./words";
 
-// Signs for the sources of plans, and for an increase of the bound.
+// Marks for an increase of the lower bound, and for plans by their source.
 export const kBoundSign = "⊥";
 export const kSigns: Record<string, string> = {
   tree: "●", start: "■", prioritized: "▲", lacam: "◆", lns: "+",
@@ -66,10 +66,10 @@ export function nodesChart(run: Run, isLogarithmic: boolean): Contents {
   };
 }
 
-// Memory of the search by kind, stacked, and the memory of the whole process.
+// Returns the memory chart: the memory of the search, stacked by kind, and that of the whole process.
 export function memoryChart(run: Run, isLogarithmic: boolean): Contents {
   const { rows } = run;
-  const counts = run.counts.filter((c) => c.process > 0); // ranks report after some time
+  const counts = run.counts.filter((c) => c.process > 0); // 0 until the ranks have reported
   const whole: Point[] = counts.length > 0
     ? counts.map(({ time, process }) => ({ time, value: process }))
     : rows.map(({ time, memory }) => ({ time, value: memory }));
@@ -126,7 +126,7 @@ function extremes(values: number[]): [number, number] {
   return values.length > 0 ? [least, most] : [0, 1];
 }
 
-// The last row at this time.
+// Returns the last row that is not after `time`; null: none.
 function rowAt<T extends { time: number }>(rows: T[], time: number): T | null {
   let [least, most] = [0, rows.length];
   while (least < most) {

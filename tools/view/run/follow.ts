@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Follows a growing log: requests new data from the server of the page, and from no other host.
+// Follows a growing log by requesting new data from the server of the page.
 
-const kPause = 1000; // milliseconds, by default
+const kPause = 1000; // milliseconds between requests, by default
 
 export interface Listener {
   begin(): void; // the log is a different file, or starts again
-  add(text: string, isAll: boolean): void; // isAll: the text reaches the current end of the log
+  add(text: string, isAll: boolean): void; // isAll: the text ends at the current end of the log
   state(isLive: boolean): void; // whether the server responds
 }
 
-// The server sends the offset of the data and the identity of the file; a new run has a new file.
+// Requests the log from an offset on. With each answer the server sends the next offset and the identity of
+// the file, which changes when a new run replaces the log.
 export class Follower {
   private offset = 0;
   private file = "";
@@ -23,7 +24,7 @@ export class Follower {
     }
   }
 
-  // Returns whether there is more data now.
+  // Requests data once. Returns whether the log has more data already.
   private async ask(): Promise<boolean> {
     try {
       const answer = await fetch(`log?from=${this.offset}&file=${encodeURIComponent(this.file)}`);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Positions of tree nodes: each leaf has its own column, a parent is centred over its children, and trees
-// are side by side. So two nodes of one depth are at least one column apart, and edges do not cross.
+// Positions of tree nodes. Each leaf has its own column, a parent is centred over its first and last child,
+// and trees are side by side. Therefore nodes of the same depth are at least one column apart, and edges do
+// not cross.
 
 import type { TreeNode } from "./model";
 
@@ -10,7 +11,7 @@ export interface Placed {
   y: number; // depth
 }
 
-// In depth-first order, without recursion: trees may be deep.
+// Places the nodes in depth-first order, without recursion, because trees can be deep.
 export function layout(roots: readonly TreeNode[]): Map<TreeNode, Placed> {
   const placed = new Map<TreeNode, Placed>();
   let column = 0;

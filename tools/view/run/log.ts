@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the log of a run, which may still grow. The parser is strict, errors name the line, and unknown
-// events are ignored.
+// Reads the log of a run, which may still grow. The parser is strict, except that it ignores unknown events.
+// Errors name the line.
 
 import { parse, Value } from "../page/json";
 import type { Counts, Header, Outcome, Rank, Row, Run, Summary, TreeNode } from "./model";
@@ -15,11 +15,11 @@ export class Log {
   readonly run: Run = {
     header: null, rows: [], counts: [], roots: [], expanded: [], moments: [], summary: null,
   };
-  private readonly nodes = new Map<number, TreeNode>(); // not expanded yet
+  private readonly nodes = new Map<number, TreeNode>(); // by number: nodes that are not expanded yet
   private rest = ""; // the incomplete last line
   private lines = 0;
 
-  // Reads new text. Throws an error that names the line.
+  // Reads new text. Throws an error that names the first invalid line.
   add(text: string): void {
     const lines = (this.rest + text).split("\n");
     this.rest = lines.pop()!;
@@ -191,7 +191,7 @@ function readSummary(data: Value): Summary {
   };
 }
 
-// The members that are numbers, by their present names.
+// Returns the members that are numbers, by their current names.
 function readNumbers(data: Value, names: Record<string, string>): Map<string, number> {
   const all = new Map<string, number>();
   for (const name of data.names())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Page of a run: reads the log, from the page or while it grows, and shows it.
+// Page of a run: reads the log, from the page or from the server while it grows, and shows it.
 
 import { el, setText } from "../page/dom";
 import { Chart } from "./chart";
@@ -11,7 +11,7 @@ import { boundsTable, factsList, momentsList, ranksTable, sourcesTable, splitsTa
 import { TreeView } from "./tree_view";
 import { kOutcomes, kPlanSources, seconds, verdict } from "./words";
 
-const kShort = 2; // seconds
+const kShort = 2; // seconds: longer runs have a logarithmic time axis by default
 
 class Page {
   private log = new Log();
@@ -126,7 +126,8 @@ class Page {
     this.paint();
   }
 
-  // In a long run most events are in the first second.
+  // Whether the time axis is logarithmic: by default in a long run, because most events are in its first
+  // second.
   private isLogarithmicNow(): boolean {
     return this.isLogarithmic ?? endOf(this.log.run) > kShort;
   }

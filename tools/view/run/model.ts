@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Data of the log of a run. Times are in seconds since the start of the program.
+// Data of a run log. Times are in seconds since the start of the program.
 
 export interface Header {
   version: string;
@@ -12,48 +12,48 @@ export interface Header {
   tasks: number;
 }
 
-// State of the run at a time.
+// State of the search at one time.
 export interface Row {
   kind: "incumbent" | "bound" | "tree" | "progress";
   time: number;
-  nodes: number; // expanded
-  open: number;
-  bound: number;
-  incumbent: number | null;
-  memory: number; // megabytes
-  source: string; // source of an incumbent
-  raisedBy: Map<string, number>; // increase of the bound since the previous row, by source
+  nodes: number; // number of expanded nodes
+  open: number; // number of open nodes
+  bound: number; // lower bound
+  incumbent: number | null; // cost of the best plan; null: none
+  memory: number; // in megabytes
+  source: string; // only for an incumbent: the method that found it
+  raisedBy: Map<string, number>; // increase of the lower bound since the previous row, by source
 }
 
-// Megabytes by kind.
+// Kinds of memory that the log reports.
 export const kMemory = ["nodes", "subproblems", "mdds", "dependencies"] as const;
 export interface Counts {
   time: number;
   counts: Map<string, number>;
-  process: number; // megabytes
-  memory: number[]; // by kMemory
-  ranks: Rank[]; // empty for a single process
+  process: number; // memory of the whole process, in megabytes
+  memory: number[]; // megabytes, in the order of kMemory
+  ranks: Rank[]; // by rank; empty for a single process
 }
 
-// null: not reported.
+// State of one rank, with memory in megabytes. null: not reported.
 export interface Rank {
   nodes: number | null;
   open: number | null;
   bound: number | null;
   memory: number | null;
-  calls: number | null; // low-level searches
+  calls: number | null; // number of low-level searches
 }
 
 export type Outcome = "split" | "bound_raised" | "plan" | "pruned";
 
 export interface Expanded {
-  order: number; // from 1
+  order: number; // number of the expansion, from 1
   time: number;
   worker: number;
   outcome: Outcome;
   conflict: string;
   split: string;
-  planCost: number; // if the outcome is a plan
+  planCost: number; // cost of the plan, if the outcome is one
 }
 
 export interface TreeNode {
@@ -64,12 +64,12 @@ export interface TreeNode {
   bound: number;
   cost: number;
   conflicts: number | null;
-  constraint: string; // its constraint, in words
+  constraint: string; // the constraint that it adds to its parent, in words
   children: TreeNode[];
   expanded: Expanded | null;
 }
 
-// An event, in words.
+// An event of another kind, in words.
 export interface Moment {
   time: number | null;
   kind: string;
@@ -90,7 +90,7 @@ export interface Run {
   rows: Row[];
   counts: Counts[];
   roots: TreeNode[];
-  expanded: TreeNode[]; // in order
+  expanded: TreeNode[]; // in order of expansion
   moments: Moment[];
   summary: Summary | null;
 }

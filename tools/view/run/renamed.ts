@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names that logs of before 0.1 have, and their present names.
+// Names in logs of versions before 0.1, with their current names.
 
 export const kCounters: Record<string, string> = {
   batches: "node_batches",
@@ -42,7 +42,7 @@ export const kSplits: Record<string, string> = {
   "stop-is-not": "sequence",
 };
 
-// The present name for the name in a log.
+// Returns the current name for a name in a log.
 export function current(renamed: Record<string, string>, name: string): string {
   return renamed[name] ?? name;
 }

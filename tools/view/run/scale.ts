@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Scales: values to positions on a chart, and values for marks.
+// Scales map values to positions on an axis, and choose the values to mark.
 
 export interface Scale {
-  at(value: number): number; // 0 .. 1
-  marks(most: number): number[];
+  at(value: number): number; // position from 0 (least) to 1 (most)
+  marks(most: number): number[]; // about `most` values; a logarithmic scale ignores it
 }
 
 export function linear(least: number, most: number): Scale {
@@ -20,7 +20,7 @@ export function linear(least: number, most: number): Scale {
   };
 }
 
-// Begins at one millisecond.
+// A logarithmic time scale in seconds, which starts at one millisecond or later.
 export function logarithmic(least: number, most: number): Scale {
   const [from, to] = [Math.log10(Math.max(least, 1e-3)), Math.log10(Math.max(most, 2e-3))];
   const span = to > from ? to - from : 1;
@@ -34,14 +34,14 @@ export function logarithmic(least: number, most: number): Scale {
   };
 }
 
-// The least number >= the argument that is 1, 2 or 5 times a power of ten.
+// Returns the least number >= `least` that is 1, 2 or 5 times a power of ten.
 function niceStep(least: number): number {
   const power = 10 ** Math.floor(Math.log10(least));
   for (const factor of [1, 2, 5]) if (factor * power >= least) return factor * power;
   return 10 * power;
 }
 
-// Returns at most `count` of the items, evenly spread, with the first and the last.
+// Returns at most `most` of the items, evenly spread, including the first and the last.
 export function thin<T>(all: readonly T[], most: number): T[] {
   if (all.length <= most) return [...all];
   const thinned = [];

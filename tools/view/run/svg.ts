@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Creates SVG elements without markup.
+// Creates SVG elements without parsing markup.
 
 type Attributes = Record<string, string | number>;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tables of a run: sources of plans and bounds, splits, work, ranks, events.
+// Tables of a run: sources of plans and bounds, splits, counters, ranks, and events.
 
 import { el, plural } from "../page/dom";
 import { kSigns } from "./charts";
@@ -14,7 +14,7 @@ function table(head: string[], rows: (string | Node)[][], note = ""): HTMLElemen
     el("tbody", {}, ...rows.map((cells) => el("tr", {}, ...cells.map((cell) => el("td", {}, cell))))));
 }
 
-// A number with a bar relative to the maximum.
+// Returns a number with a bar whose length is relative to the maximum `most`.
 function bar(value: number, most: number): HTMLElement {
   const width = most > 0 ? (100 * value) / most : 0;
   return el("span", { class: "bar", style: `--part: ${width.toFixed(1)}%` }, number(value));
@@ -49,7 +49,7 @@ export function boundsTable(run: Run): HTMLElement {
   return table(["The bound rose by", "steps"], rows.length > 0 ? rows : [["not raised yet", ""]]);
 }
 
-// --- work ---
+// --- effort ---
 
 export function splitsTable(run: Run): HTMLElement {
   const splits = [...countsOf(run)].filter(([name]) => name.startsWith("splits_"))
@@ -108,7 +108,7 @@ function spreadText(ranks: Rank[], name: Column, text: (value: number) => string
   return [values[0], values[values.length >> 1], values[values.length - 1]].map(text).join(" · ");
 }
 
-// --- the rest ---
+// --- events ---
 
 export function momentsList(run: Run): HTMLElement | null {
   if (run.moments.length === 0) return null;

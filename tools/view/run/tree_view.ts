@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Drawing of the constraint trees of a small search: zoom and pan, details of a selected node, and
+// Displays the constraint trees of a small search, with zoom and pan, details of the selected node, and
 // playback of the expansions.
 
 import { el, setText } from "../page/dom";
@@ -8,7 +8,7 @@ import { layout } from "./layout";
 import type { Run, TreeNode } from "./model";
 import { kOutcomes, kSplits, number, seconds } from "./words";
 
-const kColumn = 34; // pixels at a zoom of 1
+const kColumn = 34; // pixels at zoom 1
 const kRow = 46;
 const kRadius = 9;
 
@@ -22,11 +22,11 @@ export class TreeView {
   private placed = new Map<TreeNode, Placed>();
   private run: Run | null = null;
   private chosen: TreeNode | null = null;
-  private shown = 0; // expansions shown
+  private shown = 0; // number of expansions shown
   private zoom = 1;
-  private row = kRow;
-  private isFitted = true; // the user has not moved it
-  private x = 0; // of the canvas' middle, in pixels at a zoom of 1
+  private row = kRow; // height of a row, in pixels at zoom 1
+  private isFitted = true; // no pan or zoom since the last fit()
+  private x = 0; // point of the drawing in the middle of the canvas, in pixels at zoom 1
   private y = 0;
 
   constructor() {
@@ -115,7 +115,7 @@ export class TreeView {
     else this.take();
   }
 
-  // The canvas' own size.
+  // Adapts the resolution of the canvas to its displayed size, and paints it.
   private take(): void {
     const ratio = window.devicePixelRatio || 1;
     const width = this.canvas.clientWidth;
@@ -134,7 +134,7 @@ export class TreeView {
     const width = this.canvas.clientWidth || 600;
     const height = this.canvas.clientHeight || 400;
     this.zoom = Math.min(2, width / ((right + 1.5) * kColumn), height / ((bottom + 1.2) * kRow));
-    // The rows of a wide tree are further apart.
+    // Moves the rows of a wide tree apart, so that they fill the height.
     this.row = Math.max(kRow, height / ((bottom + 1.2) * this.zoom));
     this.x = (right / 2) * kColumn;
     this.y = (bottom / 2) * this.row;

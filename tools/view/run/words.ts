@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Texts for the words of the log.
+// Explanations of the words in the log.
 
 import type { Run } from "./model";
 
-// Texts for `splits_...` counters and `split` of nodes, with dashes.
+// Texts for kinds of splits, by their names in `split` of a node. Counters `splits_...` have underscores
+// instead of dashes.
 export const kSplits: Record<string, string> = {
   "vertex-edge": "one of two robots avoids a place or a move at some time",
   "cost": "two robots together cost more than each on its own: one of them finishes later",
@@ -55,7 +56,7 @@ export function percent(cost: number, bound: number): string {
   return bound > 0 ? `${Number((((cost - bound) / bound) * 100).toPrecision(2))} %` : "no limit";
 }
 
-// Summary of the quality of the plan.
+// Returns a sentence about the quality of the plan.
 export function verdict(run: Run): string {
   const last = run.rows[run.rows.length - 1];
   const status = run.summary?.status ?? "";

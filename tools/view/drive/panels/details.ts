@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The selected robot or task: activity, progress, visits.
+// Panel of the selected robot or task: activity, progress and visits.
 
 import { el, setText } from "../../page/dom";
 import { head } from "../../page/panels/head";
@@ -37,7 +37,7 @@ export class Details {
     if (chosen >= 0) this.tell(chosen);
   }
 
-  // Number of visits of the selection in the log so far.
+  // Returns the number of visits, by the selected robot or to the selected task, in the log so far.
   private known(): number {
     const { app } = this;
     if (app.chosen >= 0)

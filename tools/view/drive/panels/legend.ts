@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Legend of shapes and colours.
+// Legend of the shapes and colours on the execution page.
 
 import { entriesOf, legendOf } from "../../page/panels/legend";
 import type { DriveApp } from "../app";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// List of all robots, or of those in a kind of state, with activity and progress.
+// List of robots with activity and progress: all, waiting, late, or those that need help.
 
 import { el, plural, setText } from "../../page/dom";
 import { kMostRows, rowElement, type Row } from "../../page/panels/rows";
@@ -20,7 +20,7 @@ export class Robots {
   private readonly body = el("div", { class: "rows" });
   private readonly buttons = new Map<Kind, HTMLButtonElement>();
   private kind: Kind = "all";
-  private shown = ""; // kind and agents of the rows shown
+  private shown = ""; // kind and agents of the displayed rows
   private rows: { agent: number; row: Row; element: HTMLElement; note: HTMLElement }[] = [];
 
   constructor(private readonly app: DriveApp) {
@@ -80,7 +80,7 @@ export class Robots {
     }
   }
 
-  // In whole seconds, as displayed, so that rows do not move for smaller differences.
+  // Returns the delay in whole seconds, as displayed, so that smaller differences do not reorder the rows.
   private late(agent: number): number {
     return Math.floor(lateness(this.app, agent, this.app.player.time));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The line at the top: instance, progress of the drive, and whether the display is live.
+// The line at the top: instance, progress of the execution, and whether the display is live.
 
 import { el, plural, setText } from "../../page/dom";
 import type { DriveApp } from "../app";

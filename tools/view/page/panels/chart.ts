@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
-// Activities over time: a row for each robot (for two plans one below the other), time from left to
-// right. The chart is also a slider, and names select their robots.
+// Gantt chart of the activities: a row for each robot, with a lane for each plan, and time from left to
+// right. A click or drag in the chart sets the time. A click on a name selects the robot.
 
 import type { App, Viewed } from "../app";
 import type { Colors } from "../colors";
 import { el, setText } from "../dom";
 import { Doing } from "../facts";
 
-const kLeastLane = 3; // pixels of a robot in one plan
+const kLeastLane = 3; // pixels: minimum height of a lane, the part of a row for one plan
 const kMostLane = 22;
-const kLeastNamed = 9; // pixels of a row that has a name
+const kLeastNamed = 9; // pixels: minimum height of rows with names
 const kWidestName = 110;
 const kWords = ["moves", "waits", "works", "rests"]; // by Doing
 
-// Where rows and times are.
+// Layout of rows and of the time axis, in pixels.
 interface Layout {
-  first: number; // robot
+  first: number; // the robot of the first visible row
   rows: number;
-  row: number; // pixels
-  left: number; // where time begins
-  width: number; // of time
+  row: number; // height of a row
+  left: number; // position of time 0
+  width: number; // of the time axis
 }
 
 export class Chart {
@@ -28,7 +28,7 @@ export class Chart {
   private readonly cursor = el("div", { class: "cursor" });
   private readonly note = el("div", { class: "chart-note faint" });
   private layout: Layout = { first: 0, rows: 0, row: 1, left: 0, width: 1 };
-  private first = 0; // wanted
+  private first = 0; // requested first row
   private shownChoice = -1;
   private key = "";
 
@@ -64,7 +64,8 @@ export class Chart {
     this.first = Math.min(count - this.layout.rows, Math.max(0, this.first));
   }
 
-  // Time at a point; null on the names.
+  // Returns the robot and the time at the pointer. `robot`: -1: none; `time`: null if the pointer is on the
+  // names.
   private at(event: PointerEvent): { robot: number; time: number | null } {
     const box = this.canvas.getBoundingClientRect();
     const { first, left, row, rows, width } = this.layout;
@@ -103,7 +104,7 @@ export class Chart {
     this.cursor.style.transform = `translateX(${at.toFixed(1)}px)`;
   }
 
-  // Scrolls to the robot that has just been selected.
+  // Scrolls to the selected robot if the selection has changed.
   private bringIntoSight(robot: number, rows: number): void {
     if (robot === this.shownChoice) return;
     this.shownChoice = robot;
@@ -132,7 +133,7 @@ export class Chart {
     setText(this.note, rows < count ? seen : "");
   }
 
-  // All robots if each has a few pixels, else some of them.
+  // Computes the layout: all robots if there is enough height for each, otherwise some of them.
   private lay(c: CanvasRenderingContext2D, width: number, height: number): void {
     const lanes = this.app.viewed.length;
     const count = this.app.model.agents.length;
@@ -155,7 +156,7 @@ export class Chart {
     const { left, width } = this.layout;
     const { end } = this.app.player;
     const scale = end > 0 ? width / end : 0;
-    let painted = -1; // half pixels: of many short spans few are seen
+    let painted = -1; // half pixel at which the last painted span ends; further spans that end there are skipped
     for (const span of facts.spans[robot]) {
       const until = Math.min(span.end, end);
       const last = Math.floor(2 * until * scale);
@@ -187,7 +188,7 @@ export class Chart {
     const at = this.app.chosen - first;
     if (this.app.chosen < 0 || at < 0 || at >= rows) return;
     c.strokeStyle = colors.chosen;
-    const line = row < 8 ? 1 : 2; // thin, so that the row inside stays visible
+    const line = row < 8 ? 1 : 2; // thin for low rows, which would otherwise be hidden
     c.lineWidth = line;
     c.strokeRect(left + line / 2, at * row - line / 2, width - line, row - gap + line);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The selected robot in two plans: their differences, and the times of its visits in both.
+// The selected robot in two plans: the differences, and the times of its visits in both plans.
 
 import type { App } from "../app";
 import type { Difference } from "../compare";
@@ -26,7 +26,8 @@ function differenceText(app: App, { by, orders, parts }: Difference): HTMLElemen
     momentButton(parts, () => app.go(parts)), " on. Dashed: its path in the other plan.");
 }
 
-// In the order of the first plan. If a visit has another place in the second plan, this place is shown.
+// Returns a table of the visits in the order of the first plan. Shows the position of a visit in the order of
+// the second plan if it differs.
 function visitsInBoth(app: App, agent: number): HTMLElement[] {
   const { model, viewed } = app;
   const [first, second] = viewed.map(({ plan }) =>
@@ -51,7 +52,7 @@ function moment(app: App, { begin, time }: Visit): HTMLElement {
     : momentButton(begin, () => app.go(begin));
 }
 
-// "2nd"
+// Returns an ordinal number, such as "2nd".
 function ordinal(place: number): string {
   const ends = ["th", "st", "nd", "rd"];
   const last = place % 100 > 10 && place % 100 < 14 ? 0 : place % 10;

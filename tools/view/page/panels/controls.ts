@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Controls: play, pause, step, speed, loop; the time as a slider and as a number.
+// Controls: play, pause, step, speed and loop, and the time as a slider and as a number.
 
 import { el, icon, setText } from "../dom";
 import type { Player } from "../player";
@@ -19,7 +19,7 @@ interface Played {
   changed(): void;
 }
 
-// Texts of moments.
+// Words for times: in steps for plans, in seconds for executions.
 export interface TimeWords {
   readonly label: string;
   readonly unit: string;

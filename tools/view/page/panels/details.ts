@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The selected robot or task, or a hint how to select one.
+// Details of the selected robot or task, or a hint on how to select one.
 
 import type { App } from "../app";
 import { el } from "../dom";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Robots that differ between both plans: their costs, the difference, and the first different moment.
+// List of the robots that differ between the two plans: both costs, their difference, and the first time at
+// which the plans differ.
 
 import type { App } from "../app";
 import type { Comparison, Difference } from "../compare";
@@ -68,12 +69,12 @@ function sorted(all: Difference[], order: Order): Difference[] {
   }
 }
 
-// Two infinite values are equal (their difference is NaN).
+// Compares numbers for sorting. A difference would not do, because it is NaN for two infinite values.
 function compareNumbers(a: number, b: number): number {
   return a < b ? -1 : a > b ? 1 : 0;
 }
 
-// "96 → 97 (+1), other order"
+// Returns a text such as "96 → 97 (+1), other order".
 export function costsText({ costs, by, orders }: Difference): string {
   const [a, b] = costs.map((cost) => (Number.isNaN(cost) ? "no path" : String(cost)));
   return `${a} → ${b}${Number.isNaN(by) ? "" : ` (${signed(by)})`}${orders ? ", other order" : ""}`;

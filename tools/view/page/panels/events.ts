@@ -30,7 +30,8 @@ export class Events {
     this.filters = el("div", { class: "filter" }, this.kind, this.only);
   }
 
-  // Sets the selected robot. Returns whether the list changes. (If not, it is kept with its focus.)
+  // Sets the selected robot. Returns whether the list changes; if not, the caller keeps the elements and
+  // their focus.
   choose(robot: number): boolean {
     if (robot === this.chosen) return false;
     this.chosen = robot;
@@ -39,7 +40,7 @@ export class Events {
     return this.onlyChosen;
   }
 
-  // Called when more events are known.
+  // Discards the list of events, because more events are known.
   forget(): void {
     this.known = null;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Head of the selection: its name, and a button to clear it.
+// Heading of the details: the name of the selected object, and a button to clear the selection.
 
 import { el, setText } from "../dom";
 import type { Choice } from "../stage";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Dialog with the meaning of all keys.
+// Dialog that lists all keys and their meanings.
 
 import { el } from "../dom";
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Legend of shapes and colours, and the choice of the heat map.
+// Legend of shapes and colours, and a selector for the heat map.
 
 import type { App } from "../app";
 import { el } from "../dom";
 import type { Heat } from "../heat";
 import type { Model } from "../model";
 
-type Entry = [string, string]; // kind and words
+type Entry = [string, string]; // CSS class and text
 
 const kRobots: Entry[] = [
   ["moving", "moving"], ["waiting", "waiting"], ["working", "at work"], ["resting", "at rest"],
@@ -23,7 +23,8 @@ const kHeats: [Heat, string][] = [
 ];
 const kGoals: Entry[] = [["goal", "destination"]];
 
-// Leaves out kinds that do not occur.
+// Returns the legend entries for robots, tasks and destinations. Leaves out those that the instance does not
+// have.
 export function entriesOf(model: Model, robots: Entry[]): Entry[] {
   const hasWork = model.tasks.some(({ duration }) => duration > 0);
   return [

@@ -21,7 +21,7 @@ export class Lists {
   private tab: Tab;
   private rows: Row[] = [];
   private notes: { element: HTMLElement; row: Row }[] = [];
-  private found = ""; // state of the check and of the waits that the events are made from
+  private found = ""; // state of the searches for violations and waits when the events were listed
 
   constructor(private readonly app: App) {
     const { comparison, model } = app;
@@ -112,7 +112,7 @@ export class Lists {
     }
   }
 
-  // Shorter ids first: they match the input better.
+  // Returns the rows that match, those with shorter ids first, because they match the input better.
   private matching(query: string): Row[] {
     const things = [...this.robots(), ...this.tasks()].filter((row) => row.key.includes(query));
     things.sort((a, b) => a.key.length - b.key.length);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A list of moments to jump to, each with its event.
+// A list of events, each with a button that goes to its time.
 
 import type { App } from "../app";
 import { el, plural } from "../dom";
@@ -12,7 +12,7 @@ export interface Moment {
   text: string;
 }
 
-// Makes the texts only of the items shown.
+// Creates the list. Calls `tell` only for the items that it shows.
 export function moments<T>(app: App, things: T[], tell: (thing: T) => Moment): HTMLElement {
   const items = things.slice(0, kMost).map(tell).map(({ time, text }) =>
     el("li", {},

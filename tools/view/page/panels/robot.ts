@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The selected robot: its activity now, its visits in order, its waits and their causes.
+// Details of the selected robot: its current activity, its visits in order, and its waits with their causes.
 
 import { violationsOf, type App, type Viewed } from "../app";
 import { el, plural, setText } from "../dom";
@@ -27,7 +27,7 @@ export class RobotDetails {
         : this.asked())];
   }
 
-  // Data of the instance, if there is no plan.
+  // Returns the data of the robot in the instance, for an instance without a plan.
   private asked(): HTMLElement[] {
     const { agents, tasks, world } = this.app.model;
     const { start, goal, tasks: own } = agents[this.agent];
@@ -81,7 +81,8 @@ export class RobotDetails {
     return [el("h4", { class: kind }, title), moments(this.app, things, tell)];
   }
 
-  // The time at which it passes or begins to work.
+  // Returns the entry of a visit. Its time is that of the visit or, if the task has a duration, the start of
+  // its execution.
   private visit({ task, begin, time }: Visit): Moment {
     const { duration, name } = this.app.model.tasks[task];
     const what = `${task + 1}: ${name}`;

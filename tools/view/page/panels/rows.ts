@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// A row of a list: a button with a text and, at its end, a note that follows the time.
+// A row of a list: a button with a text and, at its end, a note that depends on the time shown.
 
 import { el } from "../dom";
 
 export const kMostRows = 300;
 
 export interface Row {
-  key: string; // text that searches match
+  key: string; // lower-case text that the search field matches
   text: string;
   note: () => string;
   act: () => void;
   bad?: boolean;
-  more?: HTMLElement; // beside the button
+  more?: HTMLElement; // element beside the button
 }
 
 export function rowElement(row: Row): { element: HTMLElement; note: HTMLElement } {
@@ -23,7 +23,7 @@ export function rowElement(row: Row): { element: HTMLElement; note: HTMLElement 
   return { element, note };
 }
 
-// A button that goes to a moment.
+// Creates a button that goes to a time.
 export function momentButton(
   time: number | string, act: () => void, title = `Go to step ${time}`,
 ): HTMLElement {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The line at the top: instance, costs and claims of each plan, and the page's own verdict.
+// The line at the top: the instance and, for each plan, its cost, its claims and the verdict of the page.
 
 import type { App, Viewed } from "../app";
 import { el, plural, setText } from "../dom";
@@ -24,7 +24,7 @@ export class Strip {
     for (const { viewed, element } of this.verdicts) showVerdict(element, viewed);
   }
 
-  // The same cells for each plan, so that they are aligned.
+  // Returns the row of a plan. All plans have the same cells, so that these are aligned.
   private row(plan: Plan): HTMLElement {
     const viewed = this.app.viewed.find((v) => v.plan === plan);
     const { status, lower_bound: bound, omega } = plan.claims;
@@ -39,7 +39,8 @@ export class Strip {
       this.verdict(plan, viewed));
   }
 
-  // Difference from the first plan's cost, both computed by the page.
+  // Returns the difference between the costs of the second and the first plan, as computed by the page; empty
+  // for the first plan.
   private difference(viewed: Viewed | undefined): string {
     const { comparison } = this.app;
     if (!comparison || viewed !== this.app.viewed[1]) return "";
@@ -58,7 +59,7 @@ export class Strip {
   }
 }
 
-// Cost computed by the page; undefined if paths are missing.
+// Returns the cost that the page has computed; undefined if a path is missing.
 function foundCost(viewed: Viewed | undefined): number | undefined {
   if (!viewed || viewed.plan.agents.some(({ track }) => track.isEmpty)) return undefined;
   return viewed.facts.cost;
@@ -70,7 +71,7 @@ function costText(cost: number | undefined, found: number | undefined): string |
   return `${text} claimed, ${found.toLocaleString("en")} found`;
 }
 
-// Empty if the plan claims no value.
+// Creates a cell with name and value; empty if the plan does not claim the value.
 function cell(name: string, value: string | undefined, more = ""): HTMLElement {
   if (value === undefined) return el("span", { class: "claim" });
   return el("span", { class: "claim" }, el("span", { class: "faint" }, name), ` ${value}`,

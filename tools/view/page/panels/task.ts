@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The selected task: its place, its visits with times, and its progress.
+// Details of the selected task: its place, its visits with their times, and its progress.
 
 import type { App } from "../app";
 import { el, plural } from "../dom";
@@ -30,7 +30,8 @@ function names(app: App, agents: number[]): string {
   return agents.length > 20 ? `${some} and ${plural(agents.length - 20, "more")}` : some;
 }
 
-// "2 of 3" robots have been there; for two plans, one number each.
+// Returns a text such as "2 of 3": 2 of the 3 robots that must visit the task have visited it. For two plans
+// it has one number for each: "2 / 1 of 3".
 export function progressText(app: App, task: number): string {
   const total = app.model.tasks[task].agents.length;
   const counts = app.viewed.map(({ facts }) => visitsBy(facts.tasks[task], app.player.time));

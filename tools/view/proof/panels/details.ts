@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The selected step: its statement, the reason, and the constraints in force there.
+// Details of the selected step: its statement, why it holds, and the constraints in force there.
 
 import { el } from "../../page/dom";
 import type { ProofApp } from "../app";
@@ -54,7 +54,7 @@ export class Details {
       ...this.lemmas(step)];
   }
 
-  // The lemmas that the step names, in words.
+  // Returns a list of the lemmas that a step uses, in words.
   private lemmas(step: Step): HTMLElement[] {
     const { model, certificate } = this.app;
     if (step.lemmas.length === 0) return [];
@@ -78,7 +78,7 @@ export class Details {
     return [el("h3", {}, "Constraints here"), el("ul", { class: "moments" }, ...items)];
   }
 
-  // The task or agent selected on the map.
+  // Returns the description of the task or agent that is selected on the map.
   private marked(): HTMLElement[] {
     const { marked, chosenTask, model } = this.app;
     const { world } = model;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tree of the selected statement, or the list of all lemmas.
+// Shows the proof tree of the selected statement, or the list of all lemmas.
 
 import { el } from "../../page/dom";
 import { rowElement } from "../../page/panels/rows";

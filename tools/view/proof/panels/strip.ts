@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The line at the top: the theorem, what it implies for the plan, and the command that verifies it.
+// The line at the top: the theorem, what it implies for the plan, and the command that verifies the
+// certificate.
 
 import { el } from "../../page/dom";
 import { planFacts } from "../../page/facts";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The proof as an outline: a row for each step, with the constraint that leads to it and a note at its
-// end. The rows are created again when a step is folded or unfolded.
+// The proof as an outline, with a row for each visible step: the constraint that leads to it and, at the end,
+// a note on how it is proven. Creates the rows again when a step is folded or unfolded.
 
 import { el } from "../../page/dom";
 import type { ProofApp } from "../app";
@@ -8,8 +8,8 @@ import { constraintOf, type Step } from "../certificate";
 import { noteText, stepText } from "../words";
 
 const kMostDepth = 60; // deeper rows are not indented further
-const kWidest = 16; // pixels of indentation per level, at most
-const kRoom = 200; // pixels of indentation for all levels, if each still gets kNarrowest
+const kWidest = 16; // maximum indentation per level, in pixels
+const kRoom = 200; // maximum indentation of the deepest row, in pixels, if each level still gets kNarrowest
 const kNarrowest = 3;
 
 export class Tree {
@@ -35,7 +35,7 @@ export class Tree {
     this.bringIntoSight(this.elements[this.rows.indexOf(this.shown)]);
   }
 
-  // Scrolls only the rows, never the page.
+  // Scrolls a row into view. Scrolls only the list, never the page.
   private bringIntoSight(row: HTMLElement | undefined): void {
     if (!row) return;
     const inside = row.getBoundingClientRect();
@@ -84,7 +84,8 @@ export class Tree {
     this.elements[this.rows.indexOf(this.app.step)]?.focus({ preventScroll: true });
   }
 
-  // Keys of an outline: up and down go through the rows, right goes into a step, left goes out of it.
+  // Handles the keys of an outline: up and down go through the rows, right unfolds a step or enters it, left
+  // folds it or leaves it.
   private key(event: KeyboardEvent): void {
     const { app, rows } = this;
     const { step } = app;
