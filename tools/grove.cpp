@@ -38,8 +38,8 @@ int main(int argc, char** argv) {
   add_replan_command(app);
   const std::vector<std::string> words(argv + 1, argv + argc);
   add_view_command(
-      app,
-      {.hand_over = [&] { exec_program("grove-picture", words, "grove-pictures"); }, .draw = {}});
+      app, {.exec_picture_program = [&] { exec_program("grove-picture", words, "grove-pictures"); },
+            .draw = {}});
   add_proof_command(app);
   add_generate_command(app);
   add_convert_command(app);

@@ -49,7 +49,7 @@ bool is_first_process() {
   return true;
 }
 
-int run(MpiSession& session, bool speaks, int argc, char** argv) {
+int run(MpiSession& session, bool prints_messages, int argc, char** argv) {
   CLI::App app(kDescription, "grove-mpi");
   app.footer(kProgramFooter);
   prepare_program(app);
@@ -57,7 +57,8 @@ int run(MpiSession& session, bool speaks, int argc, char** argv) {
   add_mpi_solve_command(app, session, lines);
   add_mpi_batch_command(app, session, lines);
   try {
-    return run_program(app, argc, argv, speaks, [&](const std::string& why) { lines.refuse(why); });
+    return run_program(app, argc, argv, prints_messages,
+                       [&](const std::string& why) { lines.refuse(why); });
   } catch (const std::exception& error) {
     print_error(app, fmt::format("internal failure of rank {}: {}", session.rank(), error.what()));
     session.abort(kExitInternalFailure);

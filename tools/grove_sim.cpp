@@ -160,7 +160,7 @@ class Study {
     if (presolve(problem, options_, unlimited, silent))
       throw InputError(a_.solve.instance.name(), "",
                        "presolve shows that there is no plan; expected an instance to search");
-    begin_with_plan(problem);
+    find_start_plan(problem);
     print_line(scaling_header());
     const SimulatedRun alone = simulated(problem, 1);
     calibrate(alone);
@@ -176,7 +176,7 @@ class Study {
   }
 
  private:
-  void begin_with_plan(const Problem& problem) {
+  void find_start_plan(const Problem& problem) {
     Limits limits;
     limits.watch_interrupt(&interrupted);
     options_.start = a_.solve.start.empty() ? find_plan(problem, options_, limits, a_.primal_steps)

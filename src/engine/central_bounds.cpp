@@ -55,11 +55,12 @@ void CentralBounds::nodes_changed() {
 }
 
 void CentralBounds::prove(Cost bound, BoundSource by) {
-  run_events_.bound_beside(by, [&] {
+  run_events_.prove_outside_trees(by, [&] {
     global_bounds_.update(bound, bound);
     return global_bounds_.lower_bound();
   });
-  if (bound >= kInfiniteCost && global_bounds_.proven_infeasible() && !ended_beside_.exchange(true))
+  if (bound >= kInfiniteCost && global_bounds_.proven_infeasible() &&
+      !ended_outside_.exchange(true))
     run_events_.infeasible(kNoJointPlan);
 }
 

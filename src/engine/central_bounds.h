@@ -44,7 +44,7 @@ class CentralBounds : public SharedBounds {
   // For queries about decisions of GlobalBounds.
   const GlobalBounds& global_bounds() const { return global_bounds_; }
   // True if the search over joint states proved infeasibility; the reason is then kNoJointPlan.
-  bool has_no_joint_plan() const { return ended_beside_; }
+  bool has_no_joint_plan() const { return ended_outside_; }
   static constexpr std::string_view kNoJointPlan =
       "the search visited all joint states that the agents can reach";
   // Raises the lower bound to that of an earlier run, which this run resumes.
@@ -66,7 +66,7 @@ class CentralBounds : public SharedBounds {
   GlobalBounds global_bounds_;
   std::atomic<Cost> trees_from_;
   std::atomic<bool> out_of_nodes_{false};
-  std::atomic<bool> ended_beside_{false};
+  std::atomic<bool> ended_outside_{false};
 
   struct Found {
     std::int64_t plans = 0;

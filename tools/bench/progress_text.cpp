@@ -46,7 +46,7 @@ std::string refuted_text(const std::vector<batch::FalseClaim>& claims) {
 
 void MethodCount::count(const batch::Row& row) {
   if (row.outcome.status == batch::kUnsupported) {
-    ++unsuitable;
+    ++unsupported;
     return;
   }
   ++runs;
@@ -110,7 +110,7 @@ std::string summary_table(const BenchState& state) {
         return std::ranges::count(state.false_claims, name, &batch::FalseClaim::method);
       });
   add("unsupported", "instances that the method does not support, excluded",
-      [&](const std::string& name) { return state.counts.at(name).unsuitable; });
+      [&](const std::string& name) { return state.counts.at(name).unsupported; });
   std::vector<std::vector<std::string>> rows{header};
   for (const std::string& name : state.methods) rows.push_back(lines[name]);
   return table_text(rows) + legend + refuted_text(state.false_claims);

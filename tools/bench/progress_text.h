@@ -20,7 +20,7 @@ struct MethodCount {
   int errors = 0;
   int wrong = 0;                        // runs with an invalid plan
   int claimed = 0;                      // runs of solvers that report a plan but wrote none
-  int unsuitable = 0;                   // instances that the method refuses; not in `runs`
+  int unsupported = 0;                  // instances that the method refuses; not in `runs`
   std::vector<double> runtimes_s = {};  // Row::runtime_s() of each of `runs`
 
   void count(const batch::Row& row);

@@ -30,7 +30,7 @@ OptionText option_text(const CLI::Option& option) {
   if (option.get_items_expected_max() > 0 && !text.is_positional)
     text.value = option.get_type_name();
   text.description = one_line_of(option.get_description());
-  text.preset = option.get_default_str();
+  text.default_value = option.get_default_str();
   text.choices = choices_of(text.value);
   return text;
 }

@@ -13,7 +13,7 @@ struct OptionText {
   std::vector<std::string> names;    // "-o", "--output"; for a positional argument "INSTANCE"
   std::string value;                 // "FILE.html"; "" for a flag
   std::string description;           // one line
-  std::string preset;                // default value; "" if there is none
+  std::string default_value;         // default value; "" if there is none
   std::vector<std::string> choices;  // accepted values; empty if not a fixed list
   bool is_positional = false;
 };

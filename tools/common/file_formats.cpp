@@ -95,7 +95,7 @@ PlanFormat plan_format(const std::string& option, const std::string& name,
   return find_format<PlanFormat>(option, name, file, kPlanNames, kPlanSuffixes);
 }
 
-bool names_a_map(InstanceFormat format) {
+bool has_separate_map(InstanceFormat format) {
   return format == InstanceFormat::kGrove || format == InstanceFormat::kScen;
 }
 
@@ -105,7 +105,7 @@ bool holds_tasks(InstanceFormat format) {
 
 bool has_suffix_of_other_format(const std::string& file) {
   return std::ranges::any_of(kInstanceSuffixes, [&](const Entry<InstanceFormat>& entry) {
-    return !names_a_map(entry.format) && file.ends_with(entry.name);
+    return !has_separate_map(entry.format) && file.ends_with(entry.name);
   });
 }
 

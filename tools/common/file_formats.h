@@ -27,7 +27,7 @@ PlanFormat plan_format(const std::string& option, const std::string& name, const
 
 // Returns whether an instance file of this format refers to a separate map file. In the other
 // formats the instance file contains the map.
-bool names_a_map(InstanceFormat format);
+bool has_separate_map(InstanceFormat format);
 // Returns whether this format can express tasks.
 bool holds_tasks(InstanceFormat format);
 

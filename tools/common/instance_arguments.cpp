@@ -117,10 +117,10 @@ InputRules InstanceArguments::rules() const {
   return input_rules(confined_, memory_gb_.value_or(default_memory_gb()));
 }
 
-LoadedInstance InstanceArguments::load(bool speaks) const {
+LoadedInstance InstanceArguments::load(bool prints_messages) const {
   LoadedInstance loaded = read();
   if (no_following_) loaded.instance = loaded.instance.without_following();
-  if (speaks) print_warnings(loaded.warnings);
+  if (prints_messages) print_warnings(loaded.warnings);
   return loaded;
 }
 

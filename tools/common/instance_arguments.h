@@ -20,9 +20,9 @@ class InstanceArguments {
   // Adds --no-following, for commands that search.
   void add_rules_to(CLI::App& command);
 
-  // Reads the instance and its map. Prints warnings on standard error if `speaks`. Throws
+  // Reads the instance and its map. Prints warnings on standard error if `prints_messages`. Throws
   // InputError for bad files and CLI::ValidationError if the arguments contradict each other.
-  LoadedInstance load(bool speaks = true) const;
+  LoadedInstance load(bool prints_messages = true) const;
 
   // Returns the name of the instance for messages and results: its path, or "standard input".
   std::string name() const;

@@ -40,8 +40,9 @@ std::string option_lines(const OptionText& option) {
   std::string names;
   for (const std::string& name : option.names) names += (names.empty() ? "" : ", ") + bold(name);
   if (!option.value.empty()) names += " \\fI" + plain(option.value) + "\\fR";
-  const std::string preset = option.preset.empty() ? "" : " [" + option.preset + "]";
-  return ".TP\n" + names + "\n" + plain(option.description + preset) + "\n";
+  const std::string default_value =
+      option.default_value.empty() ? "" : " [" + option.default_value + "]";
+  return ".TP\n" + names + "\n" + plain(option.description + default_value) + "\n";
 }
 
 std::string option_section(const CommandText& command) {

@@ -9,8 +9,9 @@
 
 namespace grove::detail {
 
-void require_own_files(const std::vector<OwnFile>& files, const InstanceArguments& instance,
-                       const LoadedInstance& loaded, const std::vector<std::string>& plans) {
+void require_distinct_outputs(const std::vector<OutputFile>& files,
+                              const InstanceArguments& instance, const LoadedInstance& loaded,
+                              const std::vector<std::string>& plans) {
   for (std::size_t i = 0; i < files.size(); ++i) {
     const auto& [option, file] = files[i];
     if (file.empty()) continue;

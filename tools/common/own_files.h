@@ -11,14 +11,15 @@
 
 namespace grove::detail {
 
-struct OwnFile {
+struct OutputFile {
   std::string option;  // option that names the file
   std::string file;    // "" if the option is not given
 };
 
 // Throws CLI::ValidationError if one of `files` is "-", which is not a file. Throws InputError if
 // one of them is the instance, its map, one of `plans`, or the same as another one of them.
-void require_own_files(const std::vector<OwnFile>& files, const InstanceArguments& instance,
-                       const LoadedInstance& loaded, const std::vector<std::string>& plans);
+void require_distinct_outputs(const std::vector<OutputFile>& files,
+                              const InstanceArguments& instance, const LoadedInstance& loaded,
+                              const std::vector<std::string>& plans);
 
 }  // namespace grove::detail

@@ -65,15 +65,15 @@ Words words_of(const CLI::App& app, int argc, char** argv) {
 
 // Handles "grove help --completion SHELL" and "grove help --manual FOLDER". Returns whether the
 // command line is one of them. Throws CLI::ValidationError for other options of "grove help".
-bool handle_program_help(const CLI::App& app, const Words& words, bool speaks) {
+bool handle_program_help(const CLI::App& app, const Words& words, bool prints_messages) {
   if (words.size() < 2 || words[0] != "help" || !words[1].starts_with("--")) return false;
   const std::string value = words.size() == 3 ? words[2] : "";
   if (words[1] == "--completion" && std::ranges::count(kShells, value) == 1) {
-    if (speaks) fmt::print("{}", completion_script(command_text(app), value));
+    if (prints_messages) fmt::print("{}", completion_script(command_text(app), value));
     return true;
   }
   if (words[1] == "--manual" && !value.empty()) {
-    if (!speaks) return true;
+    if (!prints_messages) return true;
     for (const ManualPage& page : manual_pages(command_text(app), version_text()))
       write_file_atomically(std::filesystem::path(value) / page.name, page.text);
     return true;
@@ -108,15 +108,15 @@ void prepare_program(CLI::App& app) {
   let_last_option_win(app);
 }
 
-int run_program(CLI::App& app, int argc, char** argv, bool speaks,
+int run_program(CLI::App& app, int argc, char** argv, bool prints_messages,
                 const std::function<void(const std::string& why)>& refused) {
   const auto say = [&](const std::string& message) {
     refused(message);
-    if (speaks) print_error(app, message);
+    if (prints_messages) print_error(app, message);
     return kExitBadInput;
   };
   try {
-    if (handle_program_help(app, Words(argv + 1, argv + argc), speaks)) {
+    if (handle_program_help(app, Words(argv + 1, argv + argc), prints_messages)) {
       refused("found only 'help' with --completion or --manual");
       return flush_output(app);
     }
@@ -126,7 +126,7 @@ int run_program(CLI::App& app, int argc, char** argv, bool speaks,
     return flush_output(app);
   } catch (const CLI::Success& help_or_version) {
     refused("found only a request for help or the version");
-    if (speaks) app.exit(help_or_version);
+    if (prints_messages) app.exit(help_or_version);
     return flush_output(app);
   } catch (const CLI::ParseError& error) {
     return say(usage_text(app, error, Words(argv + 1, argv + argc)));

@@ -22,10 +22,10 @@ void prepare_program(CLI::App& app);
 
 // Parses the command line and thereby runs the command. Turns its exceptions into an exit code
 // (commands.h), except that exceptions for internal failures propagate. Prints errors, help and the
-// version only if `speaks`; in an MPI run only one process should print. Calls `refused` with the
-// reason if bad usage, bad input, or a request for help or the version ended the program.
+// version only if `prints_messages`; in an MPI run only one process should print. Calls `refused`
+// with the reason if bad usage, bad input, or a request for help or the version ended the program.
 int run_program(
-    CLI::App& app, int argc, char** argv, bool speaks = true,
+    CLI::App& app, int argc, char** argv, bool prints_messages = true,
     const std::function<void(const std::string& why)>& refused = [](const std::string&) {});
 
 // Like run_program(), for a program with a single process. Also reports internal failures and

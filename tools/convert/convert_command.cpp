@@ -172,7 +172,7 @@ void run(const ConvertArguments& arguments) {
     return convert_plan(arguments, from, to);
   }
   const InstanceFormat to = instance_format("--to", arguments.to, arguments.output);
-  require_use(!arguments.map.empty(), is_scen || names_a_map(to), "--map",
+  require_use(!arguments.map.empty(), is_scen || has_separate_map(to), "--map",
               "a .scen INSTANCE, or an OUT with a map");
   require_use(!arguments.scenario.empty(), false, "--scenario", "--plan and --to tracker");
   require_use(arguments.flip_up_down, false, "--flip-up-down", "--plan and --to tracker");

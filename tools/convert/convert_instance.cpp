@@ -115,7 +115,7 @@ void convert_instance(const ConvertArguments& arguments, InstanceFormat from, In
   const LoadedInstance loaded = load(arguments, from);
   print_warnings(loaded.warnings);
   require_distinct_files(arguments.output, loaded.map_path, "the map");
-  express(arguments, loaded.instance, from, [&] {
+  write_representable(arguments, loaded.instance, from, [&] {
     const Instance instance = reduced(loaded.instance, arguments, to);
     write_as(arguments, loaded, instance, to);
     fmt::print("wrote {}: {} agents, {} tasks\n", arguments.output, instance.agent_count(),

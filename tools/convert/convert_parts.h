@@ -66,7 +66,7 @@ void convert_map(const ConvertArguments& arguments);
 
 // Calls `write`, which writes OUT. If it throws because the format of OUT cannot express a part of
 // `instance`, throws InputError with the place of that part in INSTANCE, which has format `from`.
-void express(const ConvertArguments& arguments, const Instance& instance, InstanceFormat from,
-             const std::function<void()>& write);
+void write_representable(const ConvertArguments& arguments, const Instance& instance,
+                         InstanceFormat from, const std::function<void()>& write);
 
 }  // namespace grove::detail

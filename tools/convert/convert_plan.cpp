@@ -83,8 +83,8 @@ void convert_plan(const ConvertArguments& arguments, InstanceFormat from, PlanFo
   if (!violations.empty())
     throw InputError(arguments.plan, violations.front().json_pointer, violations.front().message);
   require_distinct_files(arguments.output, loaded.map_path, "the map");
-  express(arguments, loaded.instance, from,
-          [&] { write_plan_as(arguments, loaded, solution, to); });
+  write_representable(arguments, loaded.instance, from,
+                      [&] { write_plan_as(arguments, loaded, solution, to); });
   fmt::print("wrote {}: {} paths, cost {}\n", arguments.output, loaded.instance.agent_count(),
              solution.plan->cost);
 }

@@ -71,8 +71,8 @@ LoadedInstance load(const ConvertArguments& arguments, InstanceFormat from) {
   return {std::move(instance), {}, std::move(warnings)};
 }
 
-void express(const ConvertArguments& arguments, const Instance& instance, InstanceFormat from,
-             const std::function<void()>& write) {
+void write_representable(const ConvertArguments& arguments, const Instance& instance,
+                         InstanceFormat from, const std::function<void()>& write) {
   try {
     write();
   } catch (const NotRepresentable& error) {

@@ -100,8 +100,8 @@ class Execution {
         order_(loaded_.instance, *claimed_.solution.plan) {}
 
   void run() {
-    require_own_files({{"--order", a_.order}, {"--output", a_.output}, {"--view", a_.view}},
-                      a_.instance, loaded_, {a_.plan});
+    require_distinct_outputs({{"--order", a_.order}, {"--output", a_.output}, {"--view", a_.view}},
+                             a_.instance, loaded_, {a_.plan});
     if (!a_.order.empty())
       write(a_.order,
             passing_order_text(loaded_.instance, order_, a_.frame.frame(loaded_.instance)));

@@ -112,27 +112,27 @@ class Run {
     IncumbentFiles observer(a_.incumbents, a_.checkpoints.incumbent_file(), loaded_->instance,
                             options_.omega, rows);
     Solution solution = *solve_with(observer);
-    if (missing_ == 0) proof_->write(loaded_->instance, solution, unrecorded_);
+    if (unresponsive_ == 0) proof_->write(loaded_->instance, solution, missing_part_reason_);
     add_run_facts(solution, app_, a_, start_);
     solution.stats.counts["ranks"] = session_.ranks();
-    if (missing_ > 0) {
-      solution.stats.counts["unresponsive_ranks"] = missing_;
+    if (unresponsive_ > 0) {
+      solution.stats.counts["unresponsive_ranks"] = unresponsive_;
       log_->warning(without_text());
     }
     const std::string failure = finish_run(a_, loaded_->instance, solution, *log_);
-    if (missing_ > 0 && failure.empty())
+    if (unresponsive_ > 0 && failure.empty())
       session_.abort(kExitSuccess);  // otherwise they would prevent the end of this rank
     try {
       report_failures({failure, proof_->failure()});
     } catch (const CommandFailed& failed) {
-      if (missing_ > 0) session_.abort(failed.exit_code());
+      if (unresponsive_ > 0) session_.abort(failed.exit_code());
       throw;
     }
   }
 
   std::string without_text() {
     return fmt::format("{} of {} ranks did not respond at shutdown; the job ends without them{}",
-                       missing_, session_.ranks(),
+                       unresponsive_, session_.ranks(),
                        proof_->log() == nullptr ? "" : ", and without a certificate");
   }
 
@@ -145,14 +145,14 @@ class Run {
     const auto found = session_.gather(answer ? "an answer" : "");
     if (std::ranges::count(found, "") == session_.ranks()) {
       auto solution = solve_by_all(problem, observer);
-      if (missing_ > 0) return solution;
+      if (unresponsive_ > 0) return solution;
       for (const std::string& failure : session_.gather(proof_->close()))
-        if (unrecorded_.empty()) unrecorded_ = failure;
+        if (missing_part_reason_.empty()) missing_part_reason_ = failure;
       return solution;
     }
     if (!is_first()) return std::nullopt;
     auto solution = answer ? answer : solve(loaded_->instance, options_, limits_, &observer);
-    unrecorded_ = proof_->close();
+    missing_part_reason_ = proof_->close();
     return solution;
   }
 
@@ -164,7 +164,7 @@ class Run {
       const auto network = session_.connect();
       return solve_distributed(problem, options_, limits_, *network, observer, [] {});
     } catch (UnresponsiveRanks& silence) {
-      missing_ = silence.ranks;
+      unresponsive_ = silence.ranks;
       return std::move(silence.solution);
     } catch (const InputError& error) {
       print_error(*app_.get_parent(), error.what());
@@ -189,8 +189,9 @@ class Run {
   std::unique_ptr<LogFormat> log_;
   std::optional<ProofOutput> proof_;
   std::unique_ptr<SharedMemory> memory_;
-  std::string unrecorded_;    // on rank 0: why a part of the certificate is missing; "" if none is
-  std::int64_t missing_ = 0;  // number of ranks that did not respond at the end
+  std::string
+      missing_part_reason_;  // on rank 0: why a part of the certificate is missing; "" if none is
+  std::int64_t unresponsive_ = 0;  // number of ranks that did not respond at the end
 };
 
 }  // namespace

@@ -14,9 +14,9 @@ namespace grove::detail {
 DiskFlusher::~DiskFlusher() {
   {
     const std::lock_guard guard(mutex_);
-    over_ = true;
+    stopping_ = true;
   }
-  news_.notify_one();
+  wake_.notify_one();
   thread_.join();
 }
 
@@ -25,14 +25,14 @@ void DiskFlusher::flush(const std::filesystem::path& file) {
     const std::lock_guard guard(mutex_);
     waiting_.insert(file);
   }
-  news_.notify_one();
+  wake_.notify_one();
 }
 
 void DiskFlusher::run() {
   bool failed = false;
   std::unique_lock guard(mutex_);
   while (true) {
-    news_.wait(guard, [this] { return over_ || !waiting_.empty(); });
+    wake_.wait(guard, [this] { return stopping_ || !waiting_.empty(); });
     if (waiting_.empty()) return;
     const auto file = waiting_.extract(waiting_.begin());
     guard.unlock();

@@ -26,9 +26,9 @@ class DiskFlusher {
   void run();
 
   std::mutex mutex_;
-  std::condition_variable news_;
+  std::condition_variable wake_;
   std::set<std::filesystem::path> waiting_;
-  bool over_ = false;
+  bool stopping_ = false;
   std::thread thread_;  // last member, because the thread uses the other members
 };
 

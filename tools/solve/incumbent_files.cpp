@@ -27,7 +27,7 @@ void IncumbentFiles::remove_old(const std::string& prefix) {
   for (int k = 1; std::filesystem::remove(file(prefix, k), ignored);) ++k;
 }
 
-bool IncumbentFiles::may_be_file(const std::string& prefix, const std::filesystem::path& path) {
+bool IncumbentFiles::matches_name(const std::string& prefix, const std::filesystem::path& path) {
   const std::filesystem::path first = file(prefix, 1);
   const auto folder = [](const std::filesystem::path& of) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(of).parent_path());

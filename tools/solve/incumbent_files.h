@@ -37,7 +37,7 @@ class IncumbentFiles : public ForwardingObserver {
   static void remove_old(const std::string& prefix);
   // Returns whether `path` is PREFIX-<k>.plan.json for some k. A different file of the run must not
   // have such a path.
-  static bool may_be_file(const std::string& prefix, const std::filesystem::path& path);
+  static bool matches_name(const std::string& prefix, const std::filesystem::path& path);
 
   void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override;
 

@@ -245,7 +245,7 @@ void JsonLog::end(const LogEnd& end) {
             {"cost", cost_json(cost)},
             {"lower_bound", solution.lower_bound},
             {"gap", gap_json(cost, solution.lower_bound)},
-            {"plan_file", end.is_lost ? Json() : Json(end.plan_file)}};
+            {"plan_file", end.is_unwritten ? Json() : Json(end.plan_file)}};
   if (end.kept) json["kept_cost"] = *end.kept;
   json["stats"] = stats_json(solution.stats);
   sink_.line(line_of(json));

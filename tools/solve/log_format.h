@@ -42,9 +42,9 @@ struct LogRow {
 struct LogEnd {
   const Solution& solution;
   std::string plan_file;
-  std::string proof_file;    // "" if no certificate was requested
-  std::optional<Cost> kept;  // cost of the existing plan if the plan file was left unchanged
-  bool is_lost = false;      // true if the plan file could not be written
+  std::string proof_file;     // "" if no certificate was requested
+  std::optional<Cost> kept;   // cost of the existing plan if the plan file was left unchanged
+  bool is_unwritten = false;  // true if the plan file could not be written
 };
 
 // Writes the events of a run. One thread at a time.

@@ -43,8 +43,8 @@ void RunLog::on_incumbent(const Plan&, PlanSource source, const Progress&) {
   source_ = source;
 }
 
-void RunLog::on_event(RunEvent event, const Progress& told) {
-  Progress progress = told;
+void RunLog::on_event(RunEvent event, const Progress& reported) {
+  Progress progress = reported;
   if (progress.lower_bound >= kInfiniteCost) progress.lower_bound = bound_;  // infeasible
   if (importance(event) > importance(event_)) event_ = event;
   note_bound(progress);
@@ -56,8 +56,8 @@ void RunLog::on_event(RunEvent event, const Progress& told) {
   if (event == RunEvent::kProgress) show_progress(progress);
 }
 
-void RunLog::on_bound_beside(BoundSource by) {
-  raises_ = by;
+void RunLog::on_outside_bound(BoundSource by) {
+  pending_source_ = by;
 }
 
 // Attributes a rise of the bound to its cause. For expansions on other ranks the cause is only
@@ -65,10 +65,10 @@ void RunLog::on_bound_beside(BoundSource by) {
 void RunLog::note_bound(const Progress& progress) {
   if (progress.lower_bound <= bound_) return;
   const bool is_known = receives_expansions_ || progress.nodes_expanded == 0;
-  const std::optional<BoundSource> beside = std::exchange(raises_, std::nullopt);
-  raised_by_[beside     ? name_of(*beside)
-             : is_known ? last_work_
-                        : "tree"] += progress.lower_bound - bound_;
+  const std::optional<BoundSource> outside_source = std::exchange(pending_source_, std::nullopt);
+  raised_by_[outside_source ? name_of(*outside_source)
+             : is_known     ? last_tree_cause_
+                            : "tree"] += progress.lower_bound - bound_;
   bound_ = progress.lower_bound;
 }
 
@@ -113,7 +113,7 @@ void RunLog::on_root(const NodePtr& root) {
 // last live node with the old bound.
 void RunLog::on_expanded(const NodePtr& node, const Expansion& expansion, int worker) {
   receives_expansions_ = true;
-  last_work_ = expansion.branching ? "branching" : expansion.plan ? last_work_ : "wdg";
+  last_tree_cause_ = expansion.branching ? "branching" : expansion.plan ? last_tree_cause_ : "wdg";
   if (const auto row = tree_.expanded(*node, expansion, worker)) format_.node(*row, seconds());
 }
 

@@ -28,7 +28,7 @@ class RunLog : public RunObserver {
   RunLog(LogFormat& format, Clock::time_point start, const Options& options);
 
   void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override;
-  void on_bound_beside(BoundSource by) override;
+  void on_outside_bound(BoundSource by) override;
   void on_event(RunEvent event, const Progress& progress) override;
   void on_infeasible(std::string_view reason) override;
   void on_note(std::string_view note) override;
@@ -54,11 +54,12 @@ class RunLog : public RunObserver {
   bool has_rows_ = false;
   bool statistics_are_due_ = false;
   bool receives_expansions_ = false;
-  std::optional<BoundSource> raises_;     // source of the next rise of the bound; nullopt: the tree
+  std::optional<BoundSource>
+      pending_source_;                    // source of the next rise of the bound; nullopt: the tree
   RunEvent event_ = RunEvent::kProgress;  // most important event since the last row
   PlanSource source_ = PlanSource::kTree;
-  std::string_view last_work_ = "individual";   // cause to log if the tree raises the bound
-  std::map<std::string_view, Cost> raised_by_;  // rise since the last row, by cause
+  std::string_view last_tree_cause_ = "individual";  // cause to log if the tree raises the bound
+  std::map<std::string_view, Cost> raised_by_;       // rise since the last row, by cause
   Cost bound_ = 0;
   double last_row_s_ = 0;
   std::int64_t last_row_nodes_ = 0;

@@ -318,9 +318,9 @@ void require_fit(const SolveArguments& a, const Instance& instance, const SolveO
   }
 }
 
-LoadedInstance load(SolveArguments& a, bool speaks) {
+LoadedInstance load(SolveArguments& a, bool prints_messages) {
   a.instance.limit_memory(a.memory_limit_gb);
-  return a.instance.load(speaks);
+  return a.instance.load(prints_messages);
 }
 
 void set_limits(Limits& limits, const SolveArguments& a,

@@ -74,7 +74,7 @@ SolveOptions options_of_one_search(const SolveArguments& arguments);
 void require_fit(const SolveArguments& arguments, const Instance& instance,
                  const SolveOptions& options);
 // Loads the instance within the memory limit of the run; see InstanceArguments::load().
-LoadedInstance load(SolveArguments& arguments, bool speaks = true);
+LoadedInstance load(SolveArguments& arguments, bool prints_messages = true);
 // Sets the time limit (from `start`), the memory limit and the interrupt flag of a run.
 void set_limits(Limits& limits, const SolveArguments& arguments,
                 std::chrono::steady_clock::time_point start);

@@ -39,7 +39,7 @@ std::string method_text(const SolveArguments& a) {
 // Removes the incumbents of an earlier run with this prefix.
 void prepare_incumbents(const SolveArguments& a, const LoadedInstance& loaded) {
   for (const auto& file : {a.output, a.log, a.proof, a.start, a.instance.path(), loaded.map_path})
-    if (IncumbentFiles::may_be_file(a.incumbents, file))
+    if (IncumbentFiles::matches_name(a.incumbents, file))
       throw InputError(
           file.string(), "",
           fmt::format("could be overwritten by --incumbents {}; expected another prefix",

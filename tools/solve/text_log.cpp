@@ -220,7 +220,7 @@ void TextLog::end(const LogEnd& end) {
                            evicted_text(solution)));
   if (verbose_)
     for (const std::string& line : search_summary(solution.stats)) sink_.line(line);
-  if (end.is_lost)
+  if (end.is_unwritten)
     return sink_.line(fmt::format("Plan file     {} was not written", end.plan_file));
   sink_.line(fmt::format(
       "Plan file     {}{}", end.plan_file,

@@ -123,7 +123,8 @@ void send(httplib::Response& response, std::string text, const char* type) {
 
 }  // namespace
 
-void serve(const Followed& followed, int port, const std::function<void(const std::string&)>& begun,
+void serve(const ServedLog& followed, int port,
+           const std::function<void(const std::string&)>& begun,
            const std::function<bool()>& over) {
   httplib::Server server;
   GrowingFile log(followed.log);

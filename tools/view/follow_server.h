@@ -9,7 +9,7 @@
 namespace grove::detail {
 
 // The log and the page that are served.
-struct Followed {
+struct ServedLog {
   std::filesystem::path log;  // need not exist yet; may be replaced by a new file
   std::string page;           // HTML, see page.h
 };
@@ -18,7 +18,7 @@ struct Followed {
 // 0 for any free port. Calls `begun` with the address ("http://127.0.0.1:43210/TOKEN/", with a new
 // random token) before the first answer. Requests without the token get 404. Requests with another
 // host name are refused, which prevents DNS rebinding. Throws InputError if the port is in use.
-void serve(const Followed& followed, int port, const std::function<void(const std::string&)>& begun,
-           const std::function<bool()>& over);
+void serve(const ServedLog& followed, int port,
+           const std::function<void(const std::string&)>& begun, const std::function<bool()>& over);
 
 }  // namespace grove::detail

@@ -12,7 +12,7 @@
 namespace grove::detail {
 namespace {
 
-void draw(const PictureOrder& order, const Instance& instance, const Plan* plan,
+void draw(const PictureRequest& order, const Instance& instance, const Plan* plan,
           const std::function<void(const std::string&, const std::string&)>& write) {
   const Drawing drawing(instance, plan);
   const int width = static_cast<int>(order.width);
@@ -27,6 +27,6 @@ void draw(const PictureOrder& order, const Instance& instance, const Plan* plan,
 int main(int argc, char** argv) {
   CLI::App app("Pictures of plans: the part of grove view that draws", "grove");
   grove::detail::prepare_program(app);
-  grove::detail::add_view_command(app, {.hand_over = {}, .draw = grove::detail::draw});
+  grove::detail::add_view_command(app, {.exec_picture_program = {}, .draw = grove::detail::draw});
   return grove::detail::run_only_process(app, argc, argv);
 }

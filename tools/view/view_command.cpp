@@ -83,7 +83,7 @@ struct ViewArguments {
   std::string proof;  // certificate of a lower bound
   bool follow = false;
   std::int64_t port = 0;
-  PictureOrder pictures;
+  PictureRequest pictures;
 
   bool wants_pictures() const { return !pictures.is_empty(); }
 };
@@ -126,7 +126,7 @@ void write_page(const ViewArguments& arguments, const Instance& instance,
   if (arguments.open) open_in_browser(fs::absolute(output).string());
 }
 
-void write_pictures(const PictureMaker& maker, PictureOrder order, const Instance& instance,
+void write_pictures(const PictureMaker& maker, PictureRequest order, const Instance& instance,
                     const std::vector<NamedPlan>& plans) {
   const Plan* plan = nullptr;
   if (!plans.empty() && plans.front().claimed.solution.plan)
@@ -213,14 +213,14 @@ void warn_if_invalid(const Instance& instance, const NamedPlan& plan,
 }
 
 void run(const ViewArguments& arguments, const PictureMaker& maker) {
-  if (arguments.wants_pictures() && maker.hand_over) maker.hand_over();
+  if (arguments.wants_pictures() && maker.exec_picture_program) maker.exec_picture_program();
   if (!arguments.run.empty()) return show_run(arguments);
   const LoadedInstance loaded = arguments.instance.load();
-  require_own_files({{"--output", page_file(arguments)},
-                     {"--svg", arguments.pictures.svg},
-                     {"--png", arguments.pictures.png},
-                     {"--gif", arguments.pictures.gif}},
-                    arguments.instance, loaded, arguments.plans);
+  require_distinct_outputs({{"--output", page_file(arguments)},
+                            {"--svg", arguments.pictures.svg},
+                            {"--png", arguments.pictures.png},
+                            {"--gif", arguments.pictures.gif}},
+                           arguments.instance, loaded, arguments.plans);
   std::vector<std::string> warnings;
   std::vector<NamedPlan> plans;
   for (const std::string& file : arguments.plans)

@@ -14,7 +14,7 @@
 namespace grove::detail {
 
 // Requested pictures; a picture without a file name is not requested.
-struct PictureOrder {
+struct PictureRequest {
   std::string svg;
   std::string png;
   std::string gif;
@@ -28,11 +28,11 @@ struct PictureOrder {
 // How a program makes pictures. Exactly one of the two members is set.
 struct PictureMaker {
   // Replaces this process (exec) before it has read or written any file; does not return.
-  std::function<void()> hand_over;
+  std::function<void()> exec_picture_program;
   // Draws the plan or, if it is nullptr, the instance. Calls `write` with each file and its
   // content.
   std::function<void(
-      const PictureOrder& order, const Instance& instance, const Plan* plan,
+      const PictureRequest& order, const Instance& instance, const Plan* plan,
       const std::function<void(const std::string& file, const std::string& bytes)>& write)>
       draw;
 };

@@ -231,7 +231,7 @@ TEST_F(Benches, RefusedInstanceIsUnsuitable) {
          instances_[1].entry.path + ": not for me'; exit 2;; esac; cp '" + (directory_ / "good") +
          "' \"$plan\"");
   const BenchState state = run();
-  EXPECT_EQ(state.counts.at("m0").unsuitable, 1);
+  EXPECT_EQ(state.counts.at("m0").unsupported, 1);
   EXPECT_EQ(state.counts.at("m0").errors, 0);
   ASSERT_EQ(rows().size(), 2U);
   EXPECT_EQ(rows()[1].outcome.status, batch::kUnsupported);
