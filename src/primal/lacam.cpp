@@ -96,9 +96,9 @@ void Lacam::start(const Problem& problem) {
     ways.push_back(agents_[i].distance(places_[i].stage, start));
   }
   if (std::ranges::any_of(ways, [](Time way) { return way >= kNever; })) return;
-  by_way_.resize(agents());
-  std::iota(by_way_.begin(), by_way_.end(), 0);
-  std::ranges::stable_sort(by_way_, std::greater(), [&](AgentIndex i) { return ways[i]; });
+  by_distance_.resize(agents());
+  std::iota(by_distance_.begin(), by_distance_.end(), 0);
+  std::ranges::stable_sort(by_distance_, std::greater(), [&](AgentIndex i) { return ways[i]; });
   add_node(configurations_.insert(places_), -1);
 }
 
@@ -144,7 +144,7 @@ void Lacam::expand(Id id) {
   rank_agents(id);
   const ConstraintId constraint = take_constraint(id);
   branch(id, constraint);
-  collect_orders(constraint);
+  collect_constraints(constraint);
   const auto states = generator_.step(configurations_[id], ranking_, orders_, dice_);
   if (!states.empty()) arrive(id, states);
 }
@@ -152,7 +152,7 @@ void Lacam::expand(Id id) {
 void Lacam::rank_agents(Id id) {
   if (ranked_ == id) return;
   ranked_ = id;
-  ranking_ = by_way_;
+  ranking_ = by_distance_;
   const std::span<const Age> ages = ages_[id];
   std::ranges::stable_sort(ranking_, std::greater(), [&](AgentIndex i) { return ages[i]; });
 }
@@ -171,7 +171,7 @@ void Lacam::branch(Id id, ConstraintId constraint) {
   }
 }
 
-void Lacam::collect_orders(ConstraintId constraint) {
+void Lacam::collect_constraints(ConstraintId constraint) {
   orders_.clear();
   for (; constraints_[constraint].depth > 0; constraint = constraints_[constraint].above)
     orders_.push_back(

@@ -62,7 +62,7 @@ class Lacam {
   ConstraintId take_constraint(Id id);
   void expand(Id id);
   void rank_agents(Id id);
-  void collect_orders(ConstraintId constraint);
+  void collect_constraints(ConstraintId constraint);
   void branch(Id id, ConstraintId constraint);
   void arrive(Id from, std::span<const State> states);
   void add_node(Id id, Id parent);
@@ -89,7 +89,8 @@ class Lacam {
   // Data of the configuration that is being expanded.
   Id ranked_ = -1;
   std::vector<AgentIndex> ranking_;  // agents by priority
-  std::vector<AgentIndex> by_way_;   // agents by distance at the start, longest first: breaks ties
+  std::vector<AgentIndex>
+      by_distance_;  // agents by distance at the start, longest first: breaks ties
   std::vector<LacamConstraint> orders_;
   std::vector<AgentState> places_;
   std::vector<State> next_;

@@ -28,22 +28,22 @@ PibtGenerator::PibtGenerator(const World& world, std::vector<VisitStages>& agent
 
 std::span<const State> PibtGenerator::step(std::span<const AgentState> from,
                                            std::span<const AgentIndex> priority,
-                                           std::span<const LacamConstraint> orders,
+                                           std::span<const LacamConstraint> constraints,
                                            SplitMix64& dice) {
   from_ = from;
   dice_ = &dice;
   std::ranges::fill(to_, kNoState);
   for (std::size_t agent = 0; agent < from.size(); ++agent)
     now_[world_.place(from[agent].state)] = static_cast<AgentIndex>(agent);
-  const bool done = apply(orders) && std::ranges::all_of(priority, [&](AgentIndex agent) {
+  const bool done = apply(constraints) && std::ranges::all_of(priority, [&](AgentIndex agent) {
                       return to_[agent] != kNoState || push(agent);
                     });
   clear();
   return done ? std::span<const State>(to_) : std::span<const State>();
 }
 
-bool PibtGenerator::apply(std::span<const LacamConstraint> orders) {
-  return std::ranges::all_of(orders, [&](const LacamConstraint& order) {
+bool PibtGenerator::apply(std::span<const LacamConstraint> constraints) {
+  return std::ranges::all_of(constraints, [&](const LacamConstraint& order) {
     if (collides(order.agent, order.state)) return false;
     move(order.agent, order.state);
     return true;

@@ -23,13 +23,13 @@ class PibtGenerator {
   // `world` and `agents` must outlive this.
   PibtGenerator(const World& world, std::vector<VisitStages>& agents);
 
-  // Makes a collision-free joint step from `from` that satisfies all constraints in `orders`.
+  // Makes a collision-free joint step from `from` that satisfies all constraints in `constraints`.
   // `priority`: all agents, highest priority first. Returns the new states by agent, valid until
   // the next call, or an empty span if PIBT finds no such step. This proves that no such step
   // exists only if every agent has a constraint.
   std::span<const State> step(std::span<const AgentState> from,
                               std::span<const AgentIndex> priority,
-                              std::span<const LacamConstraint> orders, SplitMix64& dice);
+                              std::span<const LacamConstraint> constraints, SplitMix64& dice);
 
  private:
   static constexpr AgentIndex kNoAgent = Swaps::kNoAgent;
@@ -39,7 +39,7 @@ class PibtGenerator {
     std::int64_t key;
   };
 
-  bool apply(std::span<const LacamConstraint> orders);
+  bool apply(std::span<const LacamConstraint> constraints);
   bool push(AgentIndex agent);
   bool try_candidates(AgentIndex agent, std::size_t first);
   void pull(AgentIndex agent, State state);

@@ -101,8 +101,8 @@ class PrimalSearch::Impl {
         seed_(seed),
         // LaCAM requires following: it lets an agent enter a place in the step in which another
         // leaves it.
-        may_configure_(techniques.has(Technique::kLacam) && problem.instance.may_follow()),
-        may_guide_(may_configure_),
+        may_step_lacam_(techniques.has(Technique::kLacam) && problem.instance.may_follow()),
+        may_guide_(may_step_lacam_),
         agents_(problem.instance.agent_count()),
         random_(seed),
         low_level_(problem, stops),
@@ -124,7 +124,7 @@ class PrimalSearch::Impl {
     return best_ < kInfiniteCost ? std::optional(best_) : std::nullopt;
   }
   bool expects_plan() const {
-    if (!may_configure_ || optimal()) return false;
+    if (!may_step_lacam_ || optimal()) return false;
     if (best_ == kInfiniteCost) return joint_steps_ < kLacamExpectedSteps;
     const std::int64_t meetings = std::min(
         tuning_.pp_long_attempt, meeting_work_ / tuning_.root_work_per_individual_planning);
@@ -162,11 +162,11 @@ class PrimalSearch::Impl {
   void plan_individually(const Limits& limits);
   void begin_round(bool first);
   // True if LaCAM or LNS can use part of the effort.
-  bool is_raced() const { return improving_ || may_configure_; }
+  bool is_raced() const { return improving_ || may_step_lacam_; }
   bool planning_is_due() const;
   void plan(const Limits& limits);
   void take_over_planned();
-  void configure(const Limits& limits);
+  void step_lacam(const Limits& limits);
   void begin_guiding(const Plan& plan);
   void guide(const Limits& limits);
   std::vector<Sequence> own_orders() const;
@@ -178,7 +178,7 @@ class PrimalSearch::Impl {
   const Problem& problem_;
   const Tuning tuning_;
   const std::uint64_t seed_;
-  bool may_configure_;
+  bool may_step_lacam_;
   bool may_guide_;  // traffic-guided LaCAM is possible; at most once per search
   const int agents_;
   Random random_;
@@ -186,7 +186,7 @@ class PrimalSearch::Impl {
   PlannedPaths paths_;    // the plan that LNS improves, or no paths
   PlannedPaths planned_;  // paths of prioritised planning
   PrioritizedPlanning planning_;
-  std::unique_ptr<LacamWithRestarts> configurations_;
+  std::unique_ptr<LacamWithRestarts> lacam_;
   std::unique_ptr<TrafficGuidedLacam> guided_;  // while it finds cheaper plans
   LargeNeighborhoodSearch neighborhoods_;
 
@@ -267,7 +267,7 @@ void PrimalSearch::Impl::advance(const Limits& limits) {
     return;
   }
   if (!improving_)
-    configure(limits);
+    step_lacam(limits);
   else if (guided_)
     guide(limits);
   else
@@ -324,7 +324,7 @@ void PrimalSearch::Impl::plan(const Limits& limits) {
 
 void PrimalSearch::Impl::take_over_planned() {
   planning_now_ = false;
-  configurations_.reset();
+  lacam_.reset();
   if (first_round_ && improving_ && planned_.cost() >= paths_.cost()) return planned_.clear();
   guided_.reset();  // plans of prioritised planning are mostly cheaper
   paths_.clear();
@@ -333,28 +333,28 @@ void PrimalSearch::Impl::take_over_planned() {
   begin_improving();
 }
 
-void PrimalSearch::Impl::configure(const Limits& limits) {
+void PrimalSearch::Impl::step_lacam(const Limits& limits) {
   using Outcome = LacamWithRestarts::Outcome;
-  if (!configurations_)
-    configurations_ = std::make_unique<LacamWithRestarts>(problem_, own_orders(), seed_,
-                                                          tuning_.lacam_first_steps);
-  const std::int64_t before = configurations_->steps();
+  if (!lacam_)
+    lacam_ = std::make_unique<LacamWithRestarts>(problem_, own_orders(), seed_,
+                                                 tuning_.lacam_first_steps);
+  const std::int64_t before = lacam_->steps();
   const Outcome outcome =
-      configurations_->run(limits, std::max<std::int64_t>(1, tuning_.primal_step_work / agents_));
-  joint_steps_ += configurations_->steps() - before;
+      lacam_->run(limits, std::max<std::int64_t>(1, tuning_.primal_step_work / agents_));
+  joint_steps_ += lacam_->steps() - before;
   if (outcome == Outcome::kFound) {
-    put_all(*configurations_->plan(), PlanSource::kLacam);
+    put_all(*lacam_->plan(), PlanSource::kLacam);
   }
   // If memory is short, it is left to the rest of the run.
   const bool lost =
       outcome == Outcome::kExhausted || (outcome == Outcome::kStopped && !limits.stop_requested());
-  if (lost) may_configure_ = false;
-  if (lost || outcome == Outcome::kFound) configurations_.reset();
+  if (lost) may_step_lacam_ = false;
+  if (lost || outcome == Outcome::kFound) lacam_.reset();
 }
 
 void PrimalSearch::Impl::begin_guiding(const Plan& plan) {
   const double min_cost_to_guide = (1 + kMinLossForGuidance) * static_cast<double>(own_costs_);
-  if (!may_guide_ || !may_configure_ || static_cast<double>(plan.cost) < min_cost_to_guide) return;
+  if (!may_guide_ || !may_step_lacam_ || static_cast<double>(plan.cost) < min_cost_to_guide) return;
   may_guide_ = false;
   guided_ = std::make_unique<TrafficGuidedLacam>(problem_, own_orders(),
                                                  static_cast<double>(own_costs_) / agents_,
@@ -421,7 +421,7 @@ void PrimalSearch::Impl::adopt(const Plan& plan) {
     adopted_ = plan;
     return;
   }
-  configurations_.reset();
+  lacam_.reset();
   if (!planning_now_ || !first_round_) {
     planning_now_ = false;
     round_began_ = work();

@@ -12,7 +12,7 @@
 // - If the pusher may rest where the walk ends, and the other agent heads for the side from which
 //   the pusher comes, they must pass each other (kToPass).
 // - If the corridor ends and the pusher still heads there (an agent can have a stop where another
-//   agent rests), the other agent must come out first (kToGetAtEnd).
+//   agent rests), the other agent must come out first (kDeadEnd).
 //
 // *Is a swap possible?* The second walk leads backwards. A swap is possible if the walk reaches a
 // junction before it returns to its first cell. In both walks a dead end of one cell where an agent
@@ -41,7 +41,7 @@ AgentIndex Swaps::partner(AgentIndex agent, State wish, std::span<const AgentSta
     const AgentIndex behind = now_[cell];
     if (behind == kNoAgent || cell == wish) continue;
     const Need reason = need(behind, agent, {here, wish}, from);
-    if (reason == Need::kToPass || (reason == Need::kToGetAtEnd && to_[behind] != kNoState))
+    if (reason == Need::kToPass || (reason == Need::kDeadEnd && to_[behind] != kNoState))
       return behind;
   }
   return kNoAgent;
@@ -58,7 +58,7 @@ Swaps::Need Swaps::need(AgentIndex pusher, AgentIndex pushed, Pair pair,
     State way = kNoState;
     const int ways = ways_on(pair, from, way);
     if (ways > 1) return Need::kNone;
-    if (ways == 0) return Need::kToGetAtEnd;
+    if (ways == 0) return Need::kDeadEnd;
     pair = {pair.front, way};
   }
   const bool meet = nearer(pushed, from, pair.back, pair.front) &&

@@ -30,8 +30,8 @@ class Swaps {
  private:
   enum class Need : std::uint8_t {
     kNone,
-    kToPass,     // each agent heads for the side from which the other comes
-    kToGetAtEnd  // one agent heads on to a dead end in which the other is
+    kToPass,  // each agent heads for the side from which the other comes
+    kDeadEnd  // one agent heads on to a dead end in which the other is
   };
 
   // Places of two agents: the one on `back` pushes the one on `front`.

@@ -15,7 +15,7 @@ Traffic::Traffic(const World& world, double usual, const Tuning& tuning)
     : world_(world),
       usual_(usual),
       tuning_(tuning),
-      there_(static_cast<std::size_t>(world.place_count()), 0),
+      visits_(static_cast<std::size_t>(world.place_count()), 0),
       buckets_(kBuckets) {
   first_.push_back(0);
   for (Place place = 0; place < world.place_count(); ++place)
@@ -30,7 +30,7 @@ Traffic::Move Traffic::move(Place from, Place to) const {
 }
 
 void Traffic::fade(double left) {
-  for (double& steps : there_) steps *= left;
+  for (double& steps : visits_) steps *= left;
   for (double& steps : moving_) steps *= left;
 }
 
@@ -38,7 +38,7 @@ void Traffic::add(const Path& path, double weight) {
   for (std::size_t t = 1; t < path.size(); ++t) {
     const Place from = world_.place(path[t - 1]);
     const Place to = world_.place(path[t]);
-    there_[to] += weight;
+    visits_[to] += weight;
     if (from != to) moving_[move(from, to)] += weight;
   }
 }
@@ -46,7 +46,7 @@ void Traffic::add(const Path& path, double weight) {
 void Traffic::update_edge_costs() {
   for (Place place = 0; place < world_.place_count(); ++place)
     for (Move back = first_[place]; back < first_[place + 1]; ++back) {
-      const double congestion_cost = (tuning_.vertex_congestion_weight * there_[place] +
+      const double congestion_cost = (tuning_.vertex_congestion_weight * visits_[place] +
                                       tuning_.contraflow_weight * moving_[back]) /
                                      usual_;
       edge_cost_[back] =

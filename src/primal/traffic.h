@@ -48,7 +48,7 @@ class Traffic {
   const double usual_;
   const Tuning& tuning_;
   std::vector<Move> first_;      // by place
-  std::vector<double> there_;    // by place: steps that end there (traffic)
+  std::vector<double> visits_;   // by place: steps that end there (traffic)
   std::vector<double> moving_;   // by move
   std::vector<Time> edge_cost_;  // by move: cost of the reverse move
   std::vector<std::vector<State>> buckets_;
