@@ -156,7 +156,7 @@ void Coordinator::handle(int from, message::Message&& message) {
     throw std::invalid_argument("coordinator: unexpected message type");
   };
   std::visit(
-      Overloaded{[&](message::Status& status) { heard(children_.with(from), std::move(status)); },
+      Overloaded{[&](message::Status& status) { update(children_.with(from), std::move(status)); },
                  [&](message::NewPlan& found) {
                    run_.shared_bounds().post(std::move(found.plan), found.source);
                  },
@@ -175,8 +175,8 @@ void Coordinator::handle(int from, message::Message&& message) {
   last_message_at_ = limits_.now();  // after the handling, because writing a checkpoint takes time
 }
 
-void Coordinator::heard(int child, message::Status status) {
-  load_balancer_.heard(child, status);
+void Coordinator::update(int child, message::Status status) {
+  load_balancer_.update(child, status);
   for (const message::BatchReceived& taken : status.taken) {
     load_balancer_.arrived(taken.by);
     children_.send(children_.with(taken.from),

@@ -64,7 +64,7 @@ class Coordinator {
   };
 
   void restore(CheckpointReader& checkpoint);
-  void heard(int child, message::Status status);
+  void update(int child, message::Status status);
   void update_checkpoints();
   void leave(const message::RankFinished& message);
   RunStatistics received_statistics() const;

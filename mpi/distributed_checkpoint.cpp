@@ -60,7 +60,7 @@ void DistributedCheckpoint::write(Write what) {
 
 void DistributedCheckpoint::handle(const message::SnapshotTaken& gathered) {
   evicted_bound_ = std::min(evicted_bound_, gathered.evicted_bound);
-  if (++looked_ < children_.count()) return;
+  if (++snapshots_taken_ < children_.count()) return;
   write([&] {
     writer_ = std::make_unique<CheckpointWriter>(checkpoints_.directory,
                                                  run_.checkpoint_header(trees_, evicted_bound_));

@@ -47,7 +47,7 @@ class DistributedCheckpoint {
   const Clock::time_point begin_ = limits_.now();
   Clock::time_point announced_at_ = begin_;  // time of the last broadcast to all ranks
   const std::int64_t trees_;  // number of trees that the checkpoint records as instantiated
-  int looked_ = 0;            // number of children that have taken their snapshots
+  int snapshots_taken_ = 0;   // number of children that have taken their snapshots
   Cost evicted_bound_ = kInfiniteCost;
   int asked_ = -1;  // rank that is sending its snapshot; -1: none yet
   bool done_ = false;

@@ -64,7 +64,7 @@ void ParentLink::send(const message::Message& message) {
 // any.
 bool ParentLink::is_urgent(const message::Status& status) const {
   const bool has_more = !status.surplus.empty() && status.open / 2 > 2 * (said_.open / 2);
-  return has_more || !status.taken.empty() || status.entrusted != said_.entrusted ||
+  return has_more || !status.taken.empty() || status.assigned != said_.assigned ||
          status.epoch != said_.epoch || status.bound != said_.bound ||
          status.proven != said_.proven || status.stopped != said_.stopped ||
          status.live != said_.live || has_idle(status) != has_idle(said_);

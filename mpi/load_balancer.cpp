@@ -35,11 +35,11 @@ LoadBalancer::LoadBalancer(const std::vector<std::vector<int>>& children, const 
     message::Status idle;
     for (const int rank : children[child] | std::views::take(kMaxForwardedRequests))
       idle.work_requests.push_back({rank, true, kInfiniteCost});
-    heard(static_cast<int>(child), idle);
+    update(static_cast<int>(child), idle);
   }
 }
 
-void LoadBalancer::heard(int child, const message::Status& status) {
+void LoadBalancer::update(int child, const message::Status& status) {
   View& at = view(child);
   for (const Request& request : at.wishes) wishes_.erase(request);
   at.wishes.clear();

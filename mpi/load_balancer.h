@@ -31,7 +31,7 @@ class LoadBalancer {
   explicit LoadBalancer(const std::vector<std::vector<int>>& children, const Tuning& tuning = {});
 
   // Handles a new status from `child`.
-  void heard(int child, const message::Status& status);
+  void update(int child, const message::Status& status);
   // Records that a transfer to `rank` has arrived.
   void arrived(int rank);
   // Returns the next transfer to order, or nullopt if no transfer is worthwhile. A rank to which a

@@ -111,7 +111,7 @@ void serialize(Archive& archive, BatchReceived& taken) {
 
 template <class Archive>
 void serialize(Archive& archive, Status& s) {
-  archive(s.bound, s.evicted_bound, s.proven, s.live, s.open, s.expanded, s.epoch, s.entrusted);
+  archive(s.bound, s.evicted_bound, s.proven, s.live, s.open, s.expanded, s.epoch, s.assigned);
   enumerated(archive, s.proven_by, kLastProvenBy);
   enumerated(archive, s.stopped, StopReason::kInterrupt);
   archive(s.surplus, s.work_requests, s.taken);

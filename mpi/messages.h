@@ -67,8 +67,8 @@ struct Status {
   bool live = false;  // true: some node is live
   std::int64_t open = 0;
   std::int64_t expanded = 0;
-  std::int32_t epoch = 0;      // number of Restart messages that all these ranks have handled
-  std::int64_t entrusted = 0;  // number of AssignNodes messages that the sender has handled
+  std::int32_t epoch = 0;     // number of Restart messages that all these ranks have handled
+  std::int64_t assigned = 0;  // number of AssignNodes messages that the sender has handled
   StopReason stopped = StopReason::kNone;  // a limit reached on one of these ranks
   std::vector<Surplus> surplus;            // by bound, ascending
   std::vector<WorkRequest> work_requests;  // the most urgent ones, in descending urgency

@@ -68,7 +68,7 @@ void Rank::handle(int from, message::Message&& message) {
   std::visit(
       Overloaded{[&](message::NodeBatch& batch) {
                    ++received_messages_;
-                   take_over(from, batch);
+                   receive_batch(from, batch);
                  },
                  [&](message::RequestPricing& ask) {
                    ++received_messages_;
@@ -86,9 +86,9 @@ void Rank::handle(int from, message::Message&& message) {
                  [&](message::NewTree& tree) {
                    const NodePtr& root = roots_[tree.number] = trees_.add(tree.tree, tree.number);
                    trees_of_bounds_.add(root->tree());
-                   take_over_held();
+                   receive_deferred();
                  },
-                 [&](message::AssignNodes& entrusted) { accept(entrusted); },
+                 [&](message::AssignNodes& assigned) { accept(assigned); },
                  [&](message::SendNodes& order) { send_nodes(order); },
                  [&](message::ReleaseCustody& covered) { release(covered); },
                  [&](message::Incumbent& incumbent) {
@@ -119,7 +119,7 @@ bool Rank::must_defer(const message::NodeBatch& batch) const {
          });
 }
 
-void Rank::take_over(int from, message::NodeBatch& batch) {
+void Rank::receive_batch(int from, message::NodeBatch& batch) {
   const bool must_wait =
       std::ranges::any_of(held_, [&](const DeferredBatch& h) { return h.from == from; });
   if (must_wait || must_defer(batch)) {
@@ -133,8 +133,8 @@ void Rank::take_over(int from, message::NodeBatch& batch) {
   parent_.mark_urgent();
 }
 
-void Rank::take_over_held() {
-  for (auto& [from, batch] : std::exchange(held_, {})) take_over(from, batch);
+void Rank::receive_deferred() {
+  for (auto& [from, batch] : std::exchange(held_, {})) receive_batch(from, batch);
 }
 
 // The nodes sent stay in this rank's custody: they are taken from the frontier, but not completed.
@@ -182,9 +182,9 @@ void Rank::release(const message::ReleaseCustody& covered) {
   }
 }
 
-void Rank::accept(const message::AssignNodes& entrusted) {
-  push(entrusted.nodes, {});
-  nodes_.frontier.record_evicted_bound(entrusted.evicted_bound);
+void Rank::accept(const message::AssignNodes& assigned) {
+  push(assigned.nodes, {});
+  nodes_.frontier.record_evicted_bound(assigned.evicted_bound);
   ++assigned_;
   parent_.mark_urgent();
 }
@@ -224,11 +224,12 @@ void Rank::restart(Cost proven) {
   nodes_.restart({}, proven);
   ++epoch_;
   parent_.mark_urgent();
-  take_over_held();
+  receive_deferred();
 }
 
 // Workers run concurrently, so the order of the reads matters. The evicted bound is read after
-// `live`, because a restart must know every evicted node, and no node is evicted once none is live.
+// `live`, because a restart must set_lower_bound every evicted node, and no node is evicted once
+// none is live.
 message::Status Rank::status() const {
   message::Status status;
   const auto live = static_cast<std::int64_t>(nodes_.frontier.live());
@@ -246,7 +247,7 @@ message::Status Rank::status() const {
   status.open = static_cast<std::int64_t>(nodes_.frontier.open());
   status.expanded = nodes_.expanded;
   status.epoch = epoch_;
-  status.entrusted = assigned_;
+  status.assigned = assigned_;
   limits_.stop_requested();  // checks the limits; possibly the only check on this rank
   status.stopped = limits_.reason();
   for (const auto& [rank, peer] : peers_)

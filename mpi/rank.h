@@ -45,7 +45,7 @@ class Rank {
   // receives.
   void handle(int from, message::Message&& message);
   // On rank 0: sets the lower bound of the whole search.
-  void know(Cost bound) { shared_bounds_.know(bound); }
+  void set_lower_bound(Cost bound) { shared_bounds_.set_lower_bound(bound); }
   // Sends plans found here, learned bounds, pricing requests or replies, and the status. Plans are
   // sent at once. A status is sent at once if it is urgent, otherwise at a limited rate; see
   // ParentLink::report(). `now`: seconds since the start of the run.
@@ -73,14 +73,14 @@ class Rank {
     message::NodeBatch batch;
   };
 
-  void take_over(int from, message::NodeBatch& batch);
-  void take_over_held();
+  void receive_batch(int from, message::NodeBatch& batch);
+  void receive_deferred();
   bool must_defer(const message::NodeBatch& batch) const;
   void send_nodes(const message::SendNodes& order);
   bool keeps_next() const;
   void favor_splitting();
   void release(const message::ReleaseCustody& release);
-  void accept(const message::AssignNodes& entrusted);
+  void accept(const message::AssignNodes& assigned);
   void gather();
   void send_part();
   void send_found();

@@ -22,7 +22,7 @@ void RankNodes::update(int child, message::Status status) {
   const auto place = static_cast<std::size_t>(child);
   message::Status& latest = latest_.at(place);
   std::deque<Cost>& sent = under_way_[place];
-  const std::int64_t arrived = status.entrusted - latest.entrusted;
+  const std::int64_t arrived = status.assigned - latest.assigned;
   if (arrived < 0 || arrived > std::ssize(sent) || status.epoch < latest.epoch ||
       status.epoch > epoch_)
     throw std::invalid_argument("coordinator: status does not match the messages to the rank");

@@ -28,7 +28,7 @@ bool RankProcess::exchange_messages(double now) {
   }
   if (coordinator_) {
     coordinator_->step();
-    rank_.know(coordinator_->lower_bound());
+    rank_.set_lower_bound(coordinator_->lower_bound());
   }
   rank_.send_updates(now);
   for (SubCoordinator& sub : subs_) sub.send_updates(now);

@@ -45,7 +45,7 @@ class RemoteBounds : public SharedBounds {
   // The best bound that this rank has proven outside the tree search, and its source.
   std::pair<Cost, BoundSource> proven() const;
   // Sets the lower bound of the whole search.
-  void know(Cost bound) { known_ = bound; }
+  void set_lower_bound(Cost bound) { known_ = bound; }
   // Makes a checked plan the incumbent if it is better than the current one.
   void adopt(Plan plan);
   // Ends the run: over() returns true from now on, and the workers abort their work items.

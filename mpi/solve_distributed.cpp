@@ -106,7 +106,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
   Searching searching(problem, options, limits, member.rank(), transport.rank());
   const double patience = options.tuning.unresponsive_timeout;
   ReceiveTimeout silence;
-  bool said_farewell = false;
+  bool sent_finished = false;
   double accounted = 0;
   double heard_at = 0;
   const auto seconds = [&] { return std::chrono::duration<double>(limits.now() - begin).count(); };
@@ -119,13 +119,13 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
       if (silent > 0) throw UnresponsiveRanks(coordinator->conclude(), silent);
     }
     const double interval = member.rank().ended() ? kHeartbeatInterval_s : kAccountInterval_s;
-    if (!said_farewell && now - accounted > interval) {
+    if (!sent_finished && now - accounted > interval) {
       member.rank().send_statistics(searching.counts());
       accounted = now;
     }
-    if (!said_farewell && searching.ended() && member.rank().ended()) {
+    if (!sent_finished && searching.ended() && member.rank().ended()) {
       member.rank().send_finished(searching.counts());
-      said_farewell = true;
+      sent_finished = true;
     }
     if (heard) heard_at = now;
     silence.update(now, heard);

@@ -33,7 +33,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
   const auto unexpected = [](const auto&) {
     throw std::invalid_argument("sub-coordinator: unexpected message type");
   };
-  std::visit(Overloaded{[&](message::Status& status) { heard(child(), std::move(status)); },
+  std::visit(Overloaded{[&](message::Status& status) { update(child(), std::move(status)); },
                         [&](message::NewPlan& found) {
                           if (found.plan.cost < cutoff_) parent_.send(found);
                         },
@@ -56,7 +56,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
                         },
                         [&](message::NewTree& tree) { children_.broadcast(tree); },
                         [&](message::SnapshotRequest& gather) {
-                          looked_ = 0;
+                          snapshots_taken_ = 0;
                           gathered_ = {};
                           children_.broadcast(gather);
                         },
@@ -76,8 +76,8 @@ void SubCoordinator::handle(int from, message::Message&& message) {
 
 // Releases batches between two children here; the merged status covers such a batch before and
 // after the release. Reports of other batches go to the parent.
-void SubCoordinator::heard(int child, message::Status&& status) {
-  load_balancer_.heard(child, status);
+void SubCoordinator::update(int child, message::Status&& status) {
+  load_balancer_.update(child, status);
   for (const message::BatchReceived& taken : status.taken) {
     load_balancer_.arrived(taken.by);
     if (children_.include(taken.from))
@@ -96,7 +96,7 @@ void SubCoordinator::heard(int child, message::Status&& status) {
 // When all children have taken their snapshots, all plans found before them have been forwarded.
 void SubCoordinator::gathered(const message::SnapshotTaken& parts) {
   gathered_.evicted_bound = std::min(gathered_.evicted_bound, parts.evicted_bound);
-  if (++looked_ == children_.count()) parent_.send(gathered_);
+  if (++snapshots_taken_ == children_.count()) parent_.send(gathered_);
 }
 
 void SubCoordinator::send_finished(const message::RankFinished& message) {
@@ -116,7 +116,7 @@ void SubCoordinator::restart(const message::Restart& order) {
 
 message::Status SubCoordinator::status() const {
   message::Status status = nodes_.merged();
-  status.entrusted = assigned_;
+  status.assigned = assigned_;
   status.surplus = load_balancer_.surplus();
   status.work_requests = load_balancer_.work_requests();
   status.taken = taken_;

@@ -32,7 +32,7 @@ class SubCoordinator {
   double next_send_time() const { return parent_.reports_at(); }
 
  private:
-  void heard(int child, message::Status&& status);
+  void update(int child, message::Status&& status);
   void gathered(const message::SnapshotTaken& gathered);
   void send_finished(const message::RankFinished& message);
   void order(const message::SendNodes& order);
@@ -48,7 +48,7 @@ class SubCoordinator {
   std::vector<message::BatchReceived> taken_;  // receipts not yet reported to the parent
   Cost cutoff_ = kInfiniteCost;                // cost of the incumbent
   message::SnapshotTaken gathered_;  // merged over the children that have taken a snapshot
-  int looked_ = 0;
+  int snapshots_taken_ = 0;
   message::RankFinished finished_;  // sum over the children that have finished
   int finished_children_ = 0;
   bool ending_ = false;

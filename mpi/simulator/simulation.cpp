@@ -94,7 +94,7 @@ struct SimulatedRank {
   double communicates_until = 0;  // end of the current or last communication
   double communication_s = 0;
   double communication_processor_s = 0;
-  bool said_farewell = false;
+  bool sent_finished = false;
   bool left = false;
 };
 
@@ -166,10 +166,10 @@ class Simulation {
     setting_.communication = {};
     const double before_s = processor_time();
     const bool heard = r.member.exchange_messages(now_);
-    if (r.member.rank().ended() && !r.said_farewell) {
+    if (r.member.rank().ended() && !r.sent_finished) {
       if (r.player.busy()) abandon_work(r);
       r.member.rank().send_finished({});
-      r.said_farewell = true;
+      r.sent_finished = true;
     }
     r.communication_processor_s += processor_time() - before_s;
     communicated(rank, now_);
@@ -186,9 +186,9 @@ class Simulation {
     if (const double next = setting_.network.next_arrival(rank); next < kNotDue)
       communicate_from(next, rank);
     if (const double next = r.member.next_send_time(); next < kNotDue) communicate_from(next, rank);
-    if (!r.said_farewell && !r.player.busy() && r.has_work())
+    if (!r.sent_finished && !r.player.busy() && r.has_work())
       schedule(r.communicates_until, rank, Actor::kWorker);
-    if (!r.said_farewell || r.left || !r.member.left()) return;
+    if (!r.sent_finished || r.left || !r.member.left()) return;
     r.left = true;
     ++left_;
     wall_s_ = std::max(wall_s_, r.communicates_until);
@@ -198,10 +198,10 @@ class Simulation {
   // possible communication.
   void work(int rank) {
     SimulatedRank& r = at(rank);
-    if (r.said_farewell) return;
+    if (r.sent_finished) return;
     const double alone_until = first_communication(r, now_);
     for (double time = now_; time == now_ || time < alone_until; time = r.player.busy_until()) {
-      if (r.player.busy() && !cancel_workers(rank, time)) return;
+      if (r.player.busy() && !end_work_item(rank, time)) return;
       r.player.begin(time, expander_);
       if (!r.player.busy()) return;
     }
@@ -210,7 +210,7 @@ class Simulation {
 
   // Ends the current work item. Returns false if the item ends after `time`, because the event was
   // scheduled before the item started.
-  bool cancel_workers(int rank, double time) {
+  bool end_work_item(int rank, double time) {
     SimulatedRank& r = at(rank);
     if (r.player.busy_until() > time) return false;
     r.player.end();

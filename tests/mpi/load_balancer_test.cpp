@@ -25,7 +25,7 @@ message::Status with(int rank, Cost bound, std::int64_t surplus) {
 TEST(LoadBalancer, IdleRankReceivesSurplusNodes) {
   LoadBalancer balancer(single_ranks(2));
   EXPECT_FALSE(balancer.next());
-  balancer.heard(0, with(0, 10, 3));
+  balancer.update(0, with(0, 10, 3));
   const auto transfer = balancer.next();
   ASSERT_TRUE(transfer);
   EXPECT_EQ(transfer->from, 0);
@@ -35,10 +35,10 @@ TEST(LoadBalancer, IdleRankReceivesSurplusNodes) {
 
 TEST(LoadBalancer, NoSecondTransferBeforeTheFirstHasArrived) {
   LoadBalancer balancer(single_ranks(2));
-  balancer.heard(0, with(0, 10, 300));
+  balancer.update(0, with(0, 10, 300));
   EXPECT_TRUE(balancer.next());
   EXPECT_FALSE(balancer.next());
-  balancer.heard(1, with(1, kInfiniteCost, 0));
+  balancer.update(1, with(1, kInfiniteCost, 0));
   EXPECT_FALSE(balancer.next());
   balancer.arrived(1);
   EXPECT_TRUE(balancer.next());
@@ -48,14 +48,14 @@ TEST(LoadBalancer, TransfersNodesOfTheSecondBestBound) {
   LoadBalancer balancer(single_ranks(3), {.transfer_nodes = 1});
   message::Status status = with(0, 10, 1);
   status.surplus.push_back({11, 1});
-  balancer.heard(0, status);
+  balancer.update(0, status);
   for (int transfers = 0; transfers < 2; ++transfers) EXPECT_TRUE(balancer.next());
   EXPECT_FALSE(balancer.next());
 }
 
 TEST(LoadBalancer, OneDonorServesSeveralRanks) {
   LoadBalancer balancer(single_ranks(4), {.transfer_nodes = 2});
-  balancer.heard(0, with(0, 10, 5));
+  balancer.update(0, with(0, 10, 5));
   std::vector<int> given;
   std::int64_t nodes = 0;
   while (const auto transfer = balancer.next()) {
@@ -68,10 +68,10 @@ TEST(LoadBalancer, OneDonorServesSeveralRanks) {
 
 TEST(LoadBalancer, RankAboveTheBoundReceivesOnlyLargeSurplus) {
   LoadBalancer balancer(single_ranks(2));
-  balancer.heard(1, with(1, 15, 25));
-  balancer.heard(0, with(0, 10, 2));
+  balancer.update(1, with(1, 15, 25));
+  balancer.update(0, with(0, 10, 2));
   EXPECT_FALSE(balancer.next()) << "not for a few nodes";
-  balancer.heard(0, with(0, 10, 200));
+  balancer.update(0, with(0, 10, 200));
   const auto transfer = balancer.next();
   ASSERT_TRUE(transfer);
   EXPECT_EQ(transfer->to, 1);
@@ -79,11 +79,11 @@ TEST(LoadBalancer, RankAboveTheBoundReceivesOnlyLargeSurplus) {
 
 TEST(LoadBalancer, NextNodesAreForIdleRanksOnly) {
   LoadBalancer balancer(single_ranks(3), {.min_surplus_nodes = 1});
-  balancer.heard(1, with(1, 15, 0));
-  balancer.heard(2, with(2, kInfiniteCost, 0));
+  balancer.update(1, with(1, 15, 0));
+  balancer.update(2, with(2, kInfiniteCost, 0));
   message::Status status = with(0, 10, 0);
   status.surplus = {{10, 0, 1}};
-  balancer.heard(0, status);
+  balancer.update(0, status);
   const auto expect_a_node_for = [&](int rank, bool is_idle) {
     const auto transfer = balancer.next();
     ASSERT_TRUE(transfer);
@@ -93,7 +93,7 @@ TEST(LoadBalancer, NextNodesAreForIdleRanksOnly) {
   };
   expect_a_node_for(2, true);
   status.surplus = {{10, 1, 1}};
-  balancer.heard(0, status);
+  balancer.update(0, status);
   expect_a_node_for(1, false);
   EXPECT_EQ(balancer.surplus(), std::vector<message::Surplus>({{10, 0, 1}}));
 }
@@ -103,7 +103,7 @@ TEST(LoadBalancer, LeavesTransfersWithinAChildToTheChild) {
   message::Status status;
   status.surplus = {{10, 100}};
   status.work_requests = {{1, true, kInfiniteCost}, {2, true, kInfiniteCost}};
-  balancer.heard(0, status);
+  balancer.update(0, status);
   std::vector<int> given;
   while (const auto transfer = balancer.next()) {
     EXPECT_EQ(transfer->from, 0);
@@ -117,9 +117,9 @@ TEST(LoadBalancer, ForwardsUnmatchedSurplus) {
   message::Status status;
   using Surplus = std::vector<message::Surplus>;
   status.surplus = {{10, 6}, {11, 2}};
-  balancer.heard(0, status);
+  balancer.update(0, status);
   status.surplus = {{11, 90}};
-  balancer.heard(1, status);
+  balancer.update(1, status);
   EXPECT_EQ(balancer.surplus(), Surplus({{10, 6}, {11, 92}}));
   EXPECT_TRUE(balancer.work_requests().empty());
   EXPECT_EQ(balancer.donor(6), 0);

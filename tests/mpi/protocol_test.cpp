@@ -196,21 +196,21 @@ TEST(RankNodes, CoverAllRootsOfARestartUntilRanksReportThem) {
   RankNodes nodes(children);
   const std::vector<NodePtr> roots{s.new_root(), s.new_root(), s.new_root()};
   nodes.restart(roots, 0);
-  std::int64_t entrusted = 0;
+  std::int64_t assigned = 0;
   for (int rank = 0; rank < 2; ++rank) {
     EXPECT_EQ(transport.sent<message::Restart>(rank).size(), 1);
     const auto assigned = transport.sent<message::AssignNodes>(rank);
-    entrusted += std::ssize(assigned);
+    assigned += std::ssize(assigned);
     for (std::int64_t pushed = 0; pushed < std::ssize(assigned); ++pushed) {
       EXPECT_EQ(nodes.bound(), roots.front()->bound());
       EXPECT_TRUE(nodes.any());
       message::Status status;
       status.epoch = 1;
-      status.entrusted = pushed + 1;
+      status.assigned = pushed + 1;
       nodes.update(rank, status);
     }
   }
-  EXPECT_EQ(entrusted, 3);
+  EXPECT_EQ(assigned, 3);
   EXPECT_EQ(nodes.bound(), kInfiniteCost);
   EXPECT_FALSE(nodes.any());
 }
@@ -339,12 +339,12 @@ TEST(IsolatedSubCoordinator, CoversAssignedNodesUntilReported) {
   const NodePtr root = setting.new_root();
   const message::AssignNodes nodes{{record_of(*root)}, kInfiniteCost};
   auto status = s.status_after(0, nodes);
-  EXPECT_EQ(status.entrusted, 1);
+  EXPECT_EQ(status.assigned, 1);
   EXPECT_EQ(status.bound, root->bound());
   EXPECT_TRUE(status.live);
   ASSERT_EQ(s.transport.sent<message::AssignNodes>(3).size(), 1);
   message::Status has_it = SubCoordinatorOfThree::with(root->bound() + 1, 0);
-  has_it.entrusted = 1;
+  has_it.assigned = 1;
   status = s.status_after(3, has_it);
   EXPECT_EQ(status.bound, root->bound() + 1);
 }
