@@ -8,7 +8,7 @@ namespace {
 
 // Returns the instance that `read` returns, and issues its warnings as Python UserWarnings.
 template <class Read>
-Instance warned(Read&& read) {
+Instance with_python_warnings(Read&& read) {
   std::vector<std::string> warnings;
   Instance instance = read(&warnings);
   for (const std::string& warning : warnings)
@@ -74,7 +74,7 @@ void add_instance(py::module_& module) {
   module.def(
       "read_instance",
       [](const std::filesystem::path& path, bool confine, std::optional<std::size_t> memory_limit) {
-        return warned([&](auto* warnings) {
+        return with_python_warnings([&](auto* warnings) {
           return read_instance(path, Trust{confine, memory_limit}, warnings);
         });
       },

@@ -15,7 +15,7 @@ namespace {
 
 // Returns the HTML page that shows an instance and at most two solutions, each with its name.
 std::string page(const Instance& instance, const std::string& title,
-                 const std::vector<std::pair<std::string, OwnSolution>>& solutions) {
+                 const std::vector<std::pair<std::string, SolutionOfInstance>>& solutions) {
   return translated([&] {
     const detail::Instance& inner = Access::instance(instance);
     std::vector<detail::NamedPlan> plans;
@@ -29,7 +29,7 @@ void write_file(const std::filesystem::path& path, const std::string& bytes) {
   translated([&] { detail::write_file_atomically(path, bytes); });
 }
 
-py::bytes picture(const Instance& instance, const std::optional<OwnPlan>& plan,
+py::bytes picture(const Instance& instance, const std::optional<PlanOfInstance>& plan,
                   const std::string& kind, const std::vector<double>& moments, int width,
                   double speed) {
   return translated([&]() -> std::string {

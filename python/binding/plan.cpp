@@ -77,13 +77,13 @@ void require_paths(const Plan& plan) {
       throw InvalidArgument("/agents/" + std::to_string(i) + "/path", "is empty");
 }
 
-py::array positions(const OwnPlan& own) {
+py::array positions(const PlanOfInstance& own) {
   require_paths(*own.plan);
   const World world = own.instance.world();
   return world.is_grid() ? cells(*own.plan) : points(*own.plan, world);
 }
 
-py::array headings(const OwnPlan& own) {
+py::array headings(const PlanOfInstance& own) {
   const Plan& plan = *own.plan;
   require_paths(plan);
   const auto agents = static_cast<py::ssize_t>(plan.agents.size());
@@ -110,7 +110,7 @@ py::list work_of(const AgentPlan& agent) {
   return all;
 }
 
-OwnPlan from_paths(const Instance& instance, const py::object& given) {
+PlanOfInstance from_paths(const Instance& instance, const py::object& given) {
   std::vector<std::vector<Place>> paths;
   for (const py::object& path :
        elements_of(given, "/paths", "a list of paths, one for each agent")) {
@@ -129,21 +129,21 @@ py::list violation_list(const std::vector<Violation>& violations) {
   return all;
 }
 
-std::string solution_summary(const OwnSolution& solution) {
+std::string solution_summary(const SolutionOfInstance& solution) {
   std::string text = "<grove.Solution: " + std::string(to_string(solution.facts.status));
   if (solution.plan) text += ", cost " + std::to_string(solution.plan->plan->cost);
   if (solution.facts.status == Status::infeasible) return text + ">";
   return text + ", lower bound " + std::to_string(solution.facts.lower_bound) + ">";
 }
 
-OwnSolution unclaimed(const OwnPlan& plan) {
+SolutionOfInstance unclaimed(const PlanOfInstance& plan) {
   return {plan.instance,
           {.status = plan.plan->cost == 0 ? Status::optimal : Status::feasible,
            .omega = std::numeric_limits<double>::infinity()},
           plan};
 }
 
-std::optional<double> gap_of(const OwnSolution& solution) {
+std::optional<double> gap_of(const SolutionOfInstance& solution) {
   return solution.whole().gap();
 }
 
@@ -167,20 +167,23 @@ void add_agent_plan(py::module_& module) {
 
 void add_plan(py::module_& module) {
   add_agent_plan(module);
-  py::class_<OwnPlan>(module, "Plan",
-                      "A path for every robot of an instance. Immutable.\n\n"
-                      "Plan(instance, paths): from lists of places, or an array of agents x times "
-                      "x 2; costs and orders of visits are computed.")
+  py::class_<PlanOfInstance>(
+      module, "Plan",
+      "A path for every robot of an instance. Immutable.\n\n"
+      "Plan(instance, paths): from lists of places, or an array of agents x times "
+      "x 2; costs and orders of visits are computed.")
       .def(py::init(&from_paths), py::arg("instance"), py::arg("paths"))
       .def_property_readonly(
-          "instance", [](const OwnPlan& p) { return p.instance; }, "The instance of the plan.")
+          "instance", [](const PlanOfInstance& p) { return p.instance; },
+          "The instance of the plan.")
       .def_property_readonly(
-          "cost", [](const OwnPlan& p) { return p.plan->cost; }, "Sum of the costs of all agents.")
+          "cost", [](const PlanOfInstance& p) { return p.plan->cost; },
+          "Sum of the costs of all agents.")
       .def_property_readonly(
-          "makespan", [](const OwnPlan& p) { return p.plan->makespan(); },
+          "makespan", [](const PlanOfInstance& p) { return p.plan->makespan(); },
           "Time step from which on all robots rest.")
       .def_property_readonly(
-          "agents", [](const OwnPlan& p) { return p.plan->agents; },
+          "agents", [](const PlanOfInstance& p) { return p.plan->agents; },
           "AgentPlans, in the order of the instance.")
       .def("positions", &positions,
            "Returns an array of agents x times x 2: cells (x, y) on a grid, metres on a roadmap.")
@@ -188,65 +191,66 @@ void add_plan(py::module_& module) {
            "Returns an array of agents x times: 0 north, 1 east, 2 south, 3 west; -1 for an agent "
            "without "
            "headings.")
-      .def("__repr__", [](const OwnPlan& p) {
+      .def("__repr__", [](const PlanOfInstance& p) {
         return "<grove.Plan: " + std::to_string(p.plan->agents.size()) + " agents, cost " +
                std::to_string(p.plan->cost) + ">";
       });
-  py::class_<OwnSolution>(
+  py::class_<SolutionOfInstance>(
       module, "Solution",
       "Result of a solve: status, lower bound and, if found, a plan. Immutable.\n\n"
       "Solution(plan): a plan without claims.")
       .def(py::init(&unclaimed), py::arg("plan"))
       .def_property_readonly(
-          "instance", [](const OwnSolution& s) { return s.instance; },
+          "instance", [](const SolutionOfInstance& s) { return s.instance; },
           "The instance that was solved.")
       .def_property_readonly(
-          "status", [](const OwnSolution& s) { return std::string(to_string(s.facts.status)); },
+          "status",
+          [](const SolutionOfInstance& s) { return std::string(to_string(s.facts.status)); },
           "'optimal', 'bounded' (within omega), 'feasible', 'infeasible' or 'unknown'.")
-      .def_readonly("plan", &OwnSolution::plan, "The plan; None if none was found.")
+      .def_readonly("plan", &SolutionOfInstance::plan, "The plan; None if none was found.")
       .def_property_readonly(
-          "lower_bound", [](const OwnSolution& s) { return s.facts.lower_bound; },
+          "lower_bound", [](const SolutionOfInstance& s) { return s.facts.lower_bound; },
           "Proven lower bound on the cost of every plan.")
       .def_property_readonly(
-          "omega", [](const OwnSolution& s) { return s.facts.omega; },
+          "omega", [](const SolutionOfInstance& s) { return s.facts.omega; },
           "Relative tolerance of the solve.")
       .def_property_readonly(
-          "following", [](const OwnSolution& s) { return s.facts.following; },
+          "following", [](const SolutionOfInstance& s) { return s.facts.following; },
           "False: bound and status hold for plans without following conflicts.")
       .def_property_readonly(
           "gap", &gap_of,
           "(cost - lower_bound) / lower_bound; 0.02 is 2 %. None without a plan, "
           "or if only the bound is 0.")
       .def_property_readonly(
-          "counts", [](const OwnSolution& s) { return s.facts.counts; },
+          "counts", [](const SolutionOfInstance& s) { return s.facts.counts; },
           "Integer statistics of the search, as in the plan file, such as nodes_expanded.")
       .def_property_readonly(
-          "measures", [](const OwnSolution& s) { return s.facts.measures; },
+          "measures", [](const SolutionOfInstance& s) { return s.facts.measures; },
           "Real-valued statistics, such as wall_s.")
       .def_property_readonly(
-          "texts", [](const OwnSolution& s) { return s.facts.texts; },
+          "texts", [](const SolutionOfInstance& s) { return s.facts.texts; },
           "Text statistics, such as stopped_by (the limit that was reached) and reason (why there "
           "is "
           "no plan).")
       .def(
           "write",
-          [](const OwnSolution& s, const std::filesystem::path& path) {
+          [](const SolutionOfInstance& s, const std::filesystem::path& path) {
             write_plan(path, s.instance, s.whole());
           },
           py::arg("path"),
           "Writes a plan file. Raises InvalidArgument if check() finds a violation.")
       .def("__repr__", &solution_summary);
-  py::implicitly_convertible<OwnPlan, OwnSolution>();
-  module.def("_check_plan", [](const OwnPlan& plan, std::size_t limit) {
+  py::implicitly_convertible<PlanOfInstance, SolutionOfInstance>();
+  module.def("_check_plan", [](const PlanOfInstance& plan, std::size_t limit) {
     return violation_list(check(plan.instance, *plan.plan, limit));
   });
-  module.def("_check_solution", [](const OwnSolution& solution, std::size_t limit) {
+  module.def("_check_solution", [](const SolutionOfInstance& solution, std::size_t limit) {
     return violation_list(check(solution.instance, solution.whole(), limit));
   });
   module.def(
       "read_plan",
       [](const std::filesystem::path& path, const Instance& instance) {
-        return OwnSolution::of(instance, read_plan(path, instance));
+        return SolutionOfInstance::of(instance, read_plan(path, instance));
       },
       py::arg("path"), py::arg("instance"),
       "Reads a plan file of this instance without checking its claims; check() checks them.");

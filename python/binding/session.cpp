@@ -44,17 +44,17 @@ void advance(Session& session, const py::object& steps, const py::dict& late) {
   session.advance(value_of<int>(steps, "/steps", "a whole number"), all);
 }
 
-OwnSolution replan(Session& session, int commit, const py::dict& arguments) {
+SolutionOfInstance replan(Session& session, int commit, const py::dict& arguments) {
   Call call(session.instance(), arguments);
   Solution solution =
       run_on_search_thread(call, [&] { return session.replan(call.options, commit); });
-  return OwnSolution::of(session.instance(), std::move(solution));
+  return SolutionOfInstance::of(session.instance(), std::move(solution));
 }
 
-std::optional<OwnPlan> plan_of(const Session& session) {
+std::optional<PlanOfInstance> plan_of(const Session& session) {
   auto plan = session.plan();
   if (!plan) return std::nullopt;
-  return OwnPlan{session.instance(), std::make_shared<const Plan>(*std::move(plan))};
+  return PlanOfInstance{session.instance(), std::make_shared<const Plan>(*std::move(plan))};
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ std::optional<OwnPlan> plan_of(const Session& session) {
 void add_session(py::module_& module) {
   py::class_<Session>(module, "_Session")
       .def(py::init<Instance>())
-      .def(py::init([](const OwnPlan& plan) { return Session(plan.instance, *plan.plan); }))
+      .def(py::init([](const PlanOfInstance& plan) { return Session(plan.instance, *plan.plan); }))
       .def("instance", &Session::instance)
       .def("plan", &plan_of)
       .def("advance", &advance)

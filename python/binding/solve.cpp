@@ -41,7 +41,7 @@ void set_callbacks(Options& options, const Instance& instance, const py::dict& a
     options.on_incumbent = [callback = shared(callback), instance](const Plan& plan,
                                                                    const Progress& progress) {
       const py::gil_scoped_acquire lock;
-      (*callback)(OwnPlan{instance, std::make_shared<const Plan>(plan)}, progress);
+      (*callback)(PlanOfInstance{instance, std::make_shared<const Plan>(plan)}, progress);
     };
 }
 
@@ -96,7 +96,8 @@ Call::Call(const Instance& instance, const py::dict& arguments) : stop(arguments
   options.deterministic = argument<bool>(arguments, "deterministic", "True or False");
   options.seed = argument<std::uint64_t>(arguments, "seed", "a whole number from 0");
   options.method = argument<std::string>(arguments, "method", "the name of a method");
-  if (const auto start = argument<std::optional<OwnPlan>>(arguments, "start", "a Plan, or None"))
+  if (const auto start =
+          argument<std::optional<PlanOfInstance>>(arguments, "start", "a Plan, or None"))
     options.start = *start->plan;
   options.progress_interval = argument<double>(arguments, "progress_interval", "seconds");
   set_callbacks(options, instance, arguments);
@@ -150,7 +151,7 @@ void add_solve(py::module_& module) {
              "system, in bytes.");
   module.def("_solve", [](const Instance& instance, const py::dict& arguments) {
     Call call(instance, arguments);
-    return OwnSolution::of(
+    return SolutionOfInstance::of(
         instance, run_on_search_thread(call, [&] { return solve(instance, call.options); }));
   });
 }

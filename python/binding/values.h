@@ -21,20 +21,20 @@ namespace grove::python {
 namespace py = pybind11;
 
 // A plan and its instance. The plan is shared, because plans are large.
-struct OwnPlan {
+struct PlanOfInstance {
   Instance instance;
   std::shared_ptr<const Plan> plan;
 };
 
-struct OwnSolution {
+struct SolutionOfInstance {
   Instance instance;
   Solution facts;  // without the plan
-  std::optional<OwnPlan> plan;
+  std::optional<PlanOfInstance> plan;
 
-  static OwnSolution of(const Instance& instance, Solution solution) {
-    OwnSolution own{instance, {}, {}};
+  static SolutionOfInstance of(const Instance& instance, Solution solution) {
+    SolutionOfInstance own{instance, {}, {}};
     if (solution.plan)
-      own.plan = OwnPlan{instance, std::make_shared<const Plan>(*std::move(solution.plan))};
+      own.plan = PlanOfInstance{instance, std::make_shared<const Plan>(*std::move(solution.plan))};
     solution.plan.reset();
     own.facts = std::move(solution);
     return own;
