@@ -278,7 +278,7 @@ std::vector<MotionWorld::Job> InstanceBuilder::jobs() const {
       if (spec.start.place != task.cell) continue;
       MotionWorld::Job& job = add(t, state_of(kind, spec.start));
       if (spec.working && spec.working->task == task.id && spec.working->done == 0)
-        job.from_nothing = true;
+        job.has_initial_state = true;
     }
   }
   return jobs;

@@ -150,7 +150,7 @@ MotionWorld::Parts MotionWorld::parts(const Map& map, std::span<const Motion> mo
   std::unordered_map<State, std::vector<State>>
       entries;  // by base state: the first states of its chains
   for (const Job& job : jobs) {
-    const Time first = job.from_nothing ? 0 : 1;
+    const Time first = job.has_initial_state ? 0 : 1;
     entries[job.base].push_back(static_cast<State>(bases + std::ssize(parts.work)) + 1 - first);
     for (Time done = first; done <= job.duration; ++done)
       parts.work.push_back({job.task, done, done == job.duration, job.base});

@@ -55,13 +55,13 @@ struct Pose {
 //   chain has an additional state in front, in which the agent starts.)
 class MotionWorld : public World {
  public:
-  // Execution of a task that takes `duration` steps, in base state `base`. With `from_nothing` the
-  // chain has an additional state before the first step.
+  // Execution of a task that takes `duration` steps, in base state `base`. With `has_initial_state`
+  // the chain has an additional state before the first step.
   struct Job {
     TaskIndex task;
     Time duration;
     State base;
-    bool from_nothing = false;
+    bool has_initial_state = false;
   };
 
   // `motions`: distinct motions with turn_steps > 0; motion i defines kind i + 1. `jobs`: no two
