@@ -71,7 +71,7 @@ LagrangianBound::LagrangianBound(const Instance& instance, const AgentStopsCache
               .bytes = std::size_t{256} << 20}),
       ascent_(tuning),
       paths_(static_cast<std::size_t>(instance.agent_count())),
-      prices_(paths_.size()),
+      values_(paths_.size()),
       labels_(paths_.size(), kFirstLabels),
       next_dual_solution_round_(tuning.first_dual_solution_round),
       is_priced_(paths_.size()),
@@ -168,7 +168,7 @@ bool LagrangianBound::store_value(AgentIndex agent, ScaledCost price, Path path)
   if (is_priced_[agent]) return false;
   is_priced_[agent] = 1;
   --unpriced_;
-  prices_[agent] = price;
+  values_[agent] = price;
   if (!path.empty()) paths_[agent] = std::move(path);
   return true;
 }
@@ -179,7 +179,7 @@ void LagrangianBound::end_pricing_if_done() {
   ++rounds_;
   work_between_ = 0;
   const ScaledCost bound =
-      std::accumulate(prices_.begin(), prices_.end(), ScaledCost{0}) - multipliers().sum();
+      std::accumulate(values_.begin(), values_.end(), ScaledCost{0}) - multipliers().sum();
   if (bound > best_ && records_best_multipliers_) note_best_multipliers();
   best_ = std::max(best_, bound);
 }
@@ -310,12 +310,12 @@ void LagrangianBound::store_dual_solution(ScaledCost bound) {
     next_dual_solution_round_ = rounds_ + std::max(1, rounds_ / kRoundsPerDualSolution);
   }
   new_dual_solution_ =
-      std::make_shared<const DualSolution>(DualSolution{multipliers(), prices_, paths_});
+      std::make_shared<const DualSolution>(DualSolution{multipliers(), values_, paths_});
 }
 
 void LagrangianBound::move_multipliers(Cost cutoff, Cost known) {
   const ScaledCost bound =
-      std::accumulate(prices_.begin(), prices_.end(), ScaledCost{0}) - multipliers().sum();
+      std::accumulate(values_.begin(), values_.end(), ScaledCost{0}) - multipliers().sum();
   store_dual_solution(bound);
   const double squares = rows_.update_direction(paths_, occupancy_, tuning_.lagrangian_smoothing);
   const double most = static_cast<double>(cutoff) * Penalties::kUnit;

@@ -116,7 +116,7 @@ class LagrangianBound {
   FinishTimeConflicts pairs_;
   TargetLevelStep ascent_;
   std::vector<Path> paths_;                // by agent: the best path found; empty: none
-  std::vector<ScaledCost> prices_;         // by agent
+  std::vector<ScaledCost> values_;         // by agent
   std::vector<std::int64_t> labels_;       // by agent: labels per agent in its last job
   std::vector<FinishTimePair> colliding_;  // events still to be tested in this round
   bool is_counted_ = false;                // occupancy_ contains the paths of this round

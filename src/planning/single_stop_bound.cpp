@@ -21,7 +21,7 @@ Time SingleStopBound::min_cost(const AgentStops& stops, Time known_bound, const 
 }
 
 // Returns the first time at which the agent can rest for ever after visiting the stop `via`, at
-// least least_; kNever if that is impossible.
+// least bound_; kNever if that is impossible.
 Time SingleStopBound::min_cost_through(int via) {
   via_ = via;
   after_via_ = 0;

@@ -73,7 +73,7 @@ class LargeNeighborhoodSearch {
       RepairOperator{0, false}, RepairOperator{30, false}, RepairOperator{0, true}};
   Cost own_costs_ = 0;
   Cost best_ = kInfiniteCost;  // least plan cost since begin()
-  std::int64_t failures_ = 0;  // iterations since least_ improved
+  std::int64_t failures_ = 0;  // iterations since best_ improved
   std::vector<Path> old_paths_;
   Path path_;
   std::int64_t steps_ = 0;

@@ -73,7 +73,7 @@ void Tally::add(const FuzzCase& fuzz_case, const CaseResult& result) {
   }
   ++(result.complaints.empty() ? passed : failed);
   infeasible += !result.solvable;
-  if (result.solvable && fuzz_case.strike == ImposedLimit::kNothing) {
+  if (result.solvable && fuzz_case.limit == ImposedLimit::kNothing) {
     ++unstopped;
     unsolved += result.stopped;
   }

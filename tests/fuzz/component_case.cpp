@@ -128,7 +128,7 @@ FuzzCase component_case(Part part, std::uint64_t seed) {
   FuzzCase fuzz_case = random_case(seed);
   if (part == Part::kAny) return fuzz_case;
   if (seed % 2 == 0) fuzz_case.instance = roomy_instance(seed);
-  fuzz_case.strike = ImposedLimit::kNothing;
+  fuzz_case.limit = ImposedLimit::kNothing;
   SolveOptions options;
   options.omega = Omega::from_double(0);
   options.policy = Policy::kFree;

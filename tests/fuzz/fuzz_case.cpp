@@ -29,11 +29,11 @@ constexpr Names<LowLevel, 4> kLowLevels{{{LowLevel::kOwn, "own"},
                                          {LowLevel::kVisitedSets, "visited-sets"},
                                          {LowLevel::kSingleLegs, "single-legs"},
                                          {LowLevel::kTimeIntervalForest, "forest"}}};
-constexpr Names<ImposedLimit, 5> kStrikes{{{ImposedLimit::kNothing, "nothing"},
-                                           {ImposedLimit::kExpired, "expired"},
-                                           {ImposedLimit::kSoon, "soon"},
-                                           {ImposedLimit::kMemory, "memory"},
-                                           {ImposedLimit::kInterrupt, "interrupt"}}};
+constexpr Names<ImposedLimit, 5> kImposedLimits{{{ImposedLimit::kNothing, "nothing"},
+                                                 {ImposedLimit::kExpired, "expired"},
+                                                 {ImposedLimit::kSoon, "soon"},
+                                                 {ImposedLimit::kMemory, "memory"},
+                                                 {ImposedLimit::kInterrupt, "interrupt"}}};
 
 template <typename T, std::size_t N>
 std::string_view name_of(const Names<T, N>& names, T value) {
@@ -88,7 +88,7 @@ void read_option(const std::string& line, FuzzCase& fuzz_case) {
   else if (key == "tune")
     set(fuzz_case.options.tuning, value);
   else if (key == "strike")
-    fuzz_case.strike = value_of(kStrikes, value);
+    fuzz_case.limit = value_of(kImposedLimits, value);
   else
     throw std::invalid_argument(fmt::format("did not expect the option '{}'", key));
 }
@@ -162,7 +162,7 @@ Tuning random_tuning(Random& random) {
   return tuning;
 }
 
-ImposedLimit random_strike(Random& random) {
+ImposedLimit random_limit(Random& random) {
   const int dice = random.below(100);
   return dice < 84   ? ImposedLimit::kNothing
          : dice < 88 ? ImposedLimit::kExpired
@@ -177,7 +177,7 @@ std::string FuzzCase::to_text() const {
   std::string text =
       fmt::format("{}options\nomega {}\npolicy {}\nrtsp {}\nseed {}\nstrike {}\n",
                   instance.to_text(), options.omega.to_string(), name_of(kPolicies, options.policy),
-                  name_of(kBackends, options.rtsp), options.seed, name_of(kStrikes, strike));
+                  name_of(kBackends, options.rtsp), options.seed, name_of(kImposedLimits, limit));
   if (options.low_level != LowLevel::kOwn)
     text += fmt::format("low-level {}\n", name_of(kLowLevels, options.low_level));
   if (options.threads != 1) text += fmt::format("threads {}\n", options.threads);
@@ -221,7 +221,7 @@ FuzzCase random_case(std::uint64_t seed) {
   if (!is_built(fuzz_case.options.rtsp)) fuzz_case.options.rtsp = RtspBackend::kAuto;
   fuzz_case.options.seed = static_cast<std::uint64_t>(random.below(1000));
   fuzz_case.options.techniques = random_techniques(random);
-  fuzz_case.strike = random_strike(random);
+  fuzz_case.limit = random_limit(random);
   fuzz_case.options.node_memory = random_node_memory(random);
   fuzz_case.options.threads = random.pick<int>({1, 1, 1, 1, 1, 2, 2, 3, 4});
   fuzz_case.options.deterministic = random.below(8) == 0;

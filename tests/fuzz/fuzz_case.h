@@ -39,7 +39,7 @@ struct FuzzCase {
 
   TinyInstance instance;
   SolveOptions options;
-  ImposedLimit strike = ImposedLimit::kNothing;
+  ImposedLimit limit = ImposedLimit::kNothing;
 
   std::string to_text() const;
   // Throws std::invalid_argument if `text` is not a valid case.

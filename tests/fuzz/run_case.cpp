@@ -31,9 +31,9 @@ struct Run {
   Clock::duration overrun{};
 };
 
-// Returns whether `strike` alone stops the run, whatever the solver does.
-bool always_stops(ImposedLimit strike) {
-  return strike == ImposedLimit::kExpired || strike == ImposedLimit::kInterrupt;
+// Returns whether `limit` alone stops the run, whatever the solver does.
+bool always_stops(ImposedLimit limit) {
+  return limit == ImposedLimit::kExpired || limit == ImposedLimit::kInterrupt;
 }
 
 Run run(const Instance& instance, const FuzzCase& fuzz_case, const oracle::Answer& truth,
@@ -42,11 +42,11 @@ Run run(const Instance& instance, const FuzzCase& fuzz_case, const oracle::Answe
   const std::atomic<bool> interrupt{true};
   const Clock::time_point begin = Clock::now();
   Clock::time_point deadline = begin + patience;
-  if (fuzz_case.strike == ImposedLimit::kExpired) deadline = begin - milliseconds(1);
-  if (fuzz_case.strike == ImposedLimit::kSoon) deadline = begin + kSoon;
-  if (fuzz_case.strike == ImposedLimit::kMemory)
+  if (fuzz_case.limit == ImposedLimit::kExpired) deadline = begin - milliseconds(1);
+  if (fuzz_case.limit == ImposedLimit::kSoon) deadline = begin + kSoon;
+  if (fuzz_case.limit == ImposedLimit::kMemory)
     limits.set_memory_limit(resident_bytes() + kScarceMemory);
-  if (fuzz_case.strike == ImposedLimit::kInterrupt) limits.watch_interrupt(&interrupt);
+  if (fuzz_case.limit == ImposedLimit::kInterrupt) limits.watch_interrupt(&interrupt);
   limits.set_deadline(deadline);
 
   const std::clock_t worked_before = std::clock();
@@ -57,10 +57,10 @@ Run run(const Instance& instance, const FuzzCase& fuzz_case, const oracle::Answe
   const auto& texts = run.solution.stats.texts;
   const auto stop = texts.find("stopped_by");
   const bool out_of_memory = (fuzz_case.options.node_memory != SolveOptions::kUnlimited ||
-                              fuzz_case.strike == ImposedLimit::kMemory) &&
+                              fuzz_case.limit == ImposedLimit::kMemory) &&
                              stop != texts.end() && stop->second == "memory limit";
   run.stopped =
-      limits.reason() != StopReason::kNone || always_stops(fuzz_case.strike) || out_of_memory;
+      limits.reason() != StopReason::kNone || always_stops(fuzz_case.limit) || out_of_memory;
   run.duration = end - begin;
   // Counts only processor time beyond the deadline, because the operating system can suspend the
   // process.

@@ -205,7 +205,7 @@ class Steps {
   }
 
   void plainer_options() {
-    plainer<ImposedLimit>([](FuzzCase& c) -> ImposedLimit& { return c.strike; },
+    plainer<ImposedLimit>([](FuzzCase& c) -> ImposedLimit& { return c.limit; },
                           ImposedLimit::kNothing);
     plainer<std::size_t>([](FuzzCase& c) -> std::size_t& { return c.options.node_memory; },
                          SolveOptions::kUnlimited);
