@@ -10,7 +10,7 @@
 
 namespace grove::detail {
 
-// One simulated run compared with the run of a single rank. A value.
+// One simulated run compared with the run of a single rank.
 struct ScalingRow {
   int ranks = 0;
   // Status of the solution, or "unfinished" if a limit was reached first; then only ranks, cost,

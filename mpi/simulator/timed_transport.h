@@ -15,7 +15,7 @@
 namespace grove::detail {
 
 // Cost of one exchange of messages by a rank. The exchange starts at the current time of the
-// network. A value.
+// network.
 struct Communication {
   double takes_s = 0;          // duration of the exchange so far, in seconds
   std::vector<int> receivers;  // receivers of the messages sent

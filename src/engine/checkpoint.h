@@ -20,7 +20,7 @@
 
 namespace grove::detail {
 
-// Everything in a checkpoint except the nodes. A value.
+// Everything in a checkpoint except the nodes.
 //
 // To resume under kFixed, the caller must check that the forest makes the same trees first, not
 // only the same number of trees. The sequencing back ends break ties differently. If the forest

@@ -13,7 +13,7 @@
 namespace grove::detail {
 
 // Checkpoint options. A run writes checkpoints every `interval_s` seconds, on request, and at its
-// end, whatever ended it. A value.
+// end, whatever ended it.
 struct Checkpoints {
   std::filesystem::path directory;  // must exist; empty: no checkpoints
   double interval_s = 600;

@@ -147,8 +147,8 @@ class Applying {
     return fmt::format("blocked/{}", end - change_.blocked.begin());
   }
 
-  // Builds the changed instance. Sets `tasks`, by earlier task, to the new index, or -1 for a
-  // dropped task.
+  // Builds the changed instance. Sets tasks[i] to the new index of each old task i that is kept.
+  // The caller must fill `tasks` with -1, which stays for dropped tasks.
   Instance build(std::vector<TaskIndex>& tasks) const {
     InstanceBuilder builder(closed_.map);
     if (!instance_.may_follow()) builder.forbid_following();

@@ -171,9 +171,9 @@ char first_character(const std::filesystem::path& path) {
   return first;
 }
 
-// Throws InputError if "map" names a roadmap, or "roadmap" names a map. `path` must be a result of
-// file_named_by(), which checks that the instance may name this file. The message does not quote
-// the file.
+// Throws InputError if "map" names a file that begins with '{', or "roadmap" names a .map file that
+// does not. `path` must be a result of file_named_by(), which checks that the instance may name
+// this file. The message never contains file content.
 void require_map_not_roadmap(const JsonValue& value, const std::filesystem::path& path,
                              bool is_roadmap) {
   const bool is_json = first_character(path) == '{';

@@ -34,7 +34,7 @@ struct LinePattern {
   double scale = 1;   // factor for the number in group 1, for example 0.001 for milliseconds
 };
 
-// The meaning of a group of a trace expression.
+// What a capture group in the regular expression of a TracePattern contains.
 enum class TraceGroup : std::uint8_t {
   kSeconds,
   kMilliseconds,

@@ -77,7 +77,7 @@ Plan standing_plan(const Instance& instance);
 enum class Status : std::uint8_t {
   kOptimal,     // there is a plan, and its cost is equal to the lower bound
   kBounded,     // there is a plan, w is finite, and cost <= (1 + w) * lower bound
-  kFeasible,    // there is a plan, for which neither is proven
+  kFeasible,    // there is a plan, and neither of the above is proven
   kInfeasible,  // it is proven that no plan exists
   kUnknown,     // no plan was found before a limit was reached
 };

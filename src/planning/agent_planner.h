@@ -31,8 +31,8 @@ struct PathQuery {
   static constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
 
   std::span<const Constraint> constraints = {};  // satisfied also by the final rest of the path
-  // Among paths of equal cost the search prefers those with few conflicts with these paths, as far
-  // as it generates them; nullptr: no preference.
+  // The search prefers paths with few conflicts with the paths in this table, among the paths of
+  // equal cost that it generates; nullptr: no preference.
   const ConflictAvoidanceTable* others = nullptr;
   Time cutoff = kNever;                   // greatest useful cost of a path; kNever: no limit
   std::int64_t label_limit = kUnlimited;  // kStopped after about this many expanded labels

@@ -13,9 +13,10 @@
 namespace grove::detail {
 
 // A monotone priority queue for small integers. Entries are popped in ascending order of *layer*
-// (an f value), then of conflicts; among equals, the last one pushed is popped first. This order
-// follows one path in depth, so it prefers the larger time. All operations are O(1), except for
-// skipping empty layers.
+// (an f value), then of conflicts. Ties in the current layer are popped last in, first out, which
+// favours depth; ties that were pushed for a later layer are popped in no specified order. push()
+// is O(1). pop() is amortized O(1), except for skipping empty lists and for each move of the
+// window, which visits all later entries.
 //
 // Entries are stored in one pool and linked into lists: one per conflict count for the current
 // layer, one per layer for the next kWindow layers, one for all later layers. The pool keeps its

@@ -246,7 +246,8 @@ class SequenceStages {
   std::vector<Stage> stages_;
   std::vector<StageId> after_;  // by stage, then stop
   std::vector<Onward> onward_;
-  std::vector<StopSetIndex> index_;  // by `left`; [1 + s]: stages without rest on s
+  std::vector<StopSetIndex> index_;  // find a stage by its `left`; [0]: rest is allowed
+                                     // everywhere, [1 + s]: no rest on stop s
 };
 
 // Returns the sequence of the class that a path realizes, where each stop is counted as early as

@@ -9,7 +9,7 @@
 
 namespace grove::detail {
 
-// All constraints of a node, its paths and bounds, and the number of its tree. A value.
+// All constraints of a node, its paths and bounds, and the number of its tree.
 struct NodeRecord {
   struct Walk {
     AgentIndex agent = -1;

@@ -19,7 +19,7 @@
 namespace grove::detail {
 
 // Results of one worker that are not in the shared cache yet. Its subproblem numbers are valid for
-// one SharedCache. A value.
+// one SharedCache.
 struct CacheDelta {
   using Id = SubproblemTable::Id;
   struct Pair {
@@ -115,7 +115,8 @@ class WorkerCache {
   void merge(Id id, SubproblemTable::CostBound known) { found_.costs[id] = known; }
 
   // The MDD of a subproblem, which is built if it is not cached; empty if it would be too large.
-  // Returns nullptr if a limit was reached. Valid until take_delta().
+  // Returns nullptr if a limit was reached. Valid until take_delta() or
+  // use_shared_cache().
   const Mdd* paths(Id id, AgentIndex agent, const AgentSequencing& order,
                    std::span<const Constraint> constraints, Time cost, const Limits& limits);
 

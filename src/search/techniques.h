@@ -61,7 +61,7 @@ inline constexpr std::array kTechniques = {
 // Names of removed techniques. The option parser reports them as removed.
 inline constexpr std::array<std::string_view, 1> kRemovedTechniques = {"sequence-splits"};
 
-// A set of techniques. A value.
+// A set of techniques.
 class Techniques {
  public:
   Techniques() = default;  // empty

@@ -13,7 +13,7 @@
 
 namespace grove::detail {
 
-// The sequence classes that a tree fixes, and the paths of its root. A value.
+// The sequence classes that a tree fixes, and the paths of its root.
 struct TreeRecord {
   // What the tree fixes about one agent; see AgentSequencing.
   struct Order {

@@ -40,7 +40,7 @@ class Results(unittest.TestCase):
 
 
 class LongInstances(unittest.TestCase):
-    """Tests that each hour-long instance has a start plan with the cost stated on its page."""
+    """Tests the start plans of data/long against its README, and the omega that ends a run at a known bound."""
 
     def test_start_plans_are_valid_for_the_instances(self):
         page = (BENCHMARKS / "data/long/README.md").read_text(encoding="utf-8")

@@ -32,8 +32,8 @@ struct Whole {
   std::vector<NodeRecord> nodes;
 };
 
-// Produces nodes of a search: breadth first below the first five trees of a forest with fixed
-// sequences.
+// Generates search nodes breadth-first from the roots of the first five trees of a forest with
+// fixed sequences, without the roots.
 class Search {
  public:
   Search() {

@@ -51,7 +51,7 @@ class LagrangianBoundTest : public ::testing::Test {
   }
 };
 
-// The bound never exceeds the oracle's optimum, whatever steps the multipliers make.
+// The bound never exceeds the oracle's optimum, whatever the step sizes.
 TEST_F(LagrangianBoundTest, IsNeverAboveTheOptimum) {
   int tried = 0, raised = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(400));

@@ -31,8 +31,9 @@ std::string data(const std::string& name) {
   return std::string(GROVE_DATA) + "/" + name;
 }
 
-// Each agent alone can reach its destination, but not both. Only a search over joint states proves
-// this, so without it a run ends only when it reaches a limit.
+// Each agent can finish if it is alone. Both cannot: each must rest on its task, and they cannot
+// pass each other. Only a search over joint states proves this, so without it a run ends only at a
+// limit.
 constexpr const char* kPuzzleMap = "type octile\nheight 1\nwidth 5\nmap\n.....\n";
 constexpr const char* kPuzzle = R"({"map": "puzzle.map",
   "agents": [{"id": "a", "start": [0, 0]}, {"id": "b", "start": [4, 0]}],

@@ -28,7 +28,7 @@ test("collisions are found", () => {
   // A robot rests on the path of another robot.
   assert.deepEqual(found(kGrid, [{ id: "a", start: 1, goal: 1 }, { id: "b", start: 0, goal: 3 }], [],
     [{ path: "@1;" }, { path: "@0;3E" }]), ["vertex 1"]);
-  // Neither following nor rotating is a collision.
+  // Following is not a collision.
   assert.deepEqual(found(kGrid, [{ id: "a", start: 1, goal: 2 }, { id: "b", start: 0, goal: 1 }], [],
     [{ path: "@1;E" }, { path: "@0;E" }]), []);
 });
