@@ -23,7 +23,7 @@ namespace grove::detail {
 // bound are at the head of coordinator.cpp. One thread at a time.
 class Coordinator {
  public:
-  // All arguments must outlive this.
+  // All arguments must outlive this object.
   Coordinator(const Problem& problem, const SolveOptions& options, const Limits& limits,
               RunObserver& observer, Transport& transport);
 

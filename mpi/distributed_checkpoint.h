@@ -21,7 +21,7 @@ namespace grove::detail {
 class DistributedCheckpoint {
  public:
   // Requests the snapshots of all ranks, through the children of the top coordinator. All arguments
-  // must outlive this.
+  // must outlive this object.
   DistributedCheckpoint(const Checkpoints& checkpoints, const Limits& limits, RunState& run,
                         Transport& transport, ChildLinks& children);
 

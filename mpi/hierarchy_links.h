@@ -16,7 +16,8 @@ namespace grove::detail {
 // numbered from 0. One thread at a time.
 class ChildLinks {
  public:
-  // Links of the level-`level` coordinator on the transport's rank. `transport` must outlive this.
+  // Links of the level-`level` coordinator on the transport's rank. `transport` must outlive this
+  // object.
   ChildLinks(Transport& transport, const Hierarchy& hierarchy, int level)
       : transport_(transport), hierarchy_(hierarchy), post_{transport.rank(), level} {}
 
@@ -44,7 +45,7 @@ class ChildLinks {
 class ParentLink {
  public:
   // Link of the rank or sub-coordinator at `post`, which must not be the top. `first` is the status
-  // that the parent assumes before the first report. `transport` must outlive this.
+  // that the parent assumes before the first report. `transport` must outlive this object.
   ParentLink(Transport& transport, const Hierarchy& hierarchy, Endpoint post,
              message::Status first);
 

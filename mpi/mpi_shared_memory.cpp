@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // *Space.* Open MPI keeps shared-memory windows in files in /dev/shm. If there is too little space,
-// the rank that creates the file fails, and the other ranks wait for it for ever. Therefore the
+// the rank that creates the file fails, and the other ranks wait for it forever. Therefore the
 // ranks check the free space first.
 //
 // *Alignment.* A window starts behind Open MPI's own data, at any offset (in Open MPI 4.1 at 8

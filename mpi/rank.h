@@ -31,8 +31,8 @@ namespace grove::detail {
 // reachable from it are thread-safe. Only the communicating thread may use everything else.
 class Rank {
  public:
-  // All arguments must outlive this, except `stops`, which is copied. `stops`: cached stops of the
-  // agents, to start from.
+  // All arguments must outlive this object, except `stops`, which is copied. `stops`: cached stops
+  // of the agents, to start from.
   Rank(const Problem& problem, const SolveOptions& options, const Limits& limits,
        Transport& transport, const AgentStopsCache& stops);
 

@@ -18,7 +18,7 @@ namespace grove::detail {
 // coordinator.cpp. One thread at a time.
 class RankNodes : public LiveNodes {
  public:
-  // `children` must outlive this.
+  // `children` must outlive this object.
   explicit RankNodes(ChildLinks& children);
 
   // Handles a new status from `child`. Throws std::invalid_argument for a status that cannot follow

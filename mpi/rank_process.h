@@ -17,8 +17,8 @@ namespace grove::detail {
 // for the thread-safe functions of Rank.
 class RankProcess {
  public:
-  // All arguments must outlive this, except `stops`; see Rank. `observer` receives the events of
-  // the run on rank 0, and none on other ranks.
+  // All arguments must outlive this object, except `stops`; see Rank. `observer` receives the
+  // events of the run on rank 0, and none on other ranks.
   RankProcess(const Problem& problem, const SolveOptions& options, const Limits& limits,
               RunObserver& observer, Transport& transport, const AgentStopsCache& stops);
   RankProcess(const Problem& problem, const SolveOptions& options, const Limits& limits,

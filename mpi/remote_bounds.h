@@ -24,7 +24,7 @@ class RemoteBounds : public SharedBounds {
     PlanSource source{};
   };
 
-  // Both arguments must outlive this.
+  // Both arguments must outlive this object.
   RemoteBounds(const Limits& limits, const Frontier& frontier)
       : limits_(limits), frontier_(frontier) {}
 

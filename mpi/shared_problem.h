@@ -23,8 +23,8 @@ class SharedProblem {
 
   // Builds the problem of `instance`. Each of the ranks that share `memory` builds a part of the
   // arrays, with `threads` threads. If `memory` is empty, each rank builds all arrays itself.
-  // `instance` and `memory` must outlive this. A process must not have two objects of this class at
-  // the same time.
+  // `instance` and `memory` must outlive this object. A process must not have two objects of this
+  // class at the same time.
   SharedProblem(const Instance& instance, const Limits& limits, int threads,
                 const SharedMemory& memory);
   ~SharedProblem();

@@ -81,7 +81,7 @@ def print_failed(part, results):
 
 
 def print_skipped(part, results):
-    """Prints one line for each reason why tests were skipped."""
+    """Prints one line for each reason for which tests were skipped."""
     names = {}
     for result in results:
         names.setdefault(reason_to_skip(result.output), []).append(result.name)

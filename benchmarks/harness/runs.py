@@ -44,7 +44,7 @@ def first_plan_seconds(log):
 
 @dataclasses.dataclass(frozen=True)
 class Grove:
-    """`grove solve` with options. Uses one thread without --threads. Checks every plan with `grove check`."""
+    """`grove solve` with `options`, on one thread unless these set --threads. Checks every plan with `grove check`."""
 
     program: str
     options: tuple = ()

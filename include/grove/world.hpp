@@ -20,14 +20,14 @@ namespace grove {
 struct Cell {
   int x = 0;  ///< Column, from 0.
   int y = 0;  ///< Row, from 0; grows downwards.
-  /// True for equal members.
+  /// True if all members are equal.
   friend bool operator==(const Cell&, const Cell&) = default;
 };
 
 /// A vertex of a roadmap.
 struct Vertex {
   std::string id = {};  ///< Id of the vertex.
-  /// True for equal members.
+  /// True if all members are equal.
   friend bool operator==(const Vertex&, const Vertex&) = default;
 };
 
@@ -38,7 +38,7 @@ struct OnRoad {
   int steps = 0;  ///< Distance from `from` in time steps, from 1 to the length of the road - 1.
   /// Index in World::edges() of the road; required if several roads join the two vertices.
   std::optional<int> edge = std::nullopt;
-  /// True for equal members. (The same place can be described from either end.)
+  /// True if all members are equal. (The same place can be described from either end.)
   friend bool operator==(const OnRoad&, const OnRoad&) = default;
 };
 
@@ -62,7 +62,7 @@ struct Pose {
   std::optional<Heading> heading = std::nullopt;     ///< Set only for agents that turn.
   std::optional<Heading> turning_to = std::nullopt;  ///< Within a quarter turn: its target heading.
   int turn_steps_done = 0;  ///< Time steps of that turn done so far; 0 outside a turn.
-  /// True for equal members.
+  /// True if all members are equal.
   friend bool operator==(const Pose&, const Pose&) = default;
 };
 

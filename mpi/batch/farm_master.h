@@ -48,7 +48,7 @@ struct MasterOptions {
 // row. One thread at a time.
 class FarmMaster {
  public:
-  // Starts `table` with `entries`. `world`, `table` and `interrupted` must outlive this.
+  // Starts `table` with `entries`. `world`, `table` and `interrupted` must outlive this object.
   FarmMaster(Transport& world, Grouping grouping, std::vector<Entry> entries, ResultTable& table,
              std::atomic<bool>& interrupted, BatchClock clock, MasterOptions options);
 

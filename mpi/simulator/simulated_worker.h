@@ -44,7 +44,7 @@ class SimulatedWorker {
     double first_turn_s = 0;  // start of the first work item, if any, in simulated seconds
   };
 
-  // All arguments must outlive this. `sets` is shared by all workers.
+  // All arguments must outlive this object. `sets` is shared by all workers.
   SimulatedWorker(Worker& worker, const Machine& machine, MddInterner& sets)
       : worker_(worker), machine_(machine), sets_(sets) {}
 

@@ -20,7 +20,7 @@ detail::SolveOptions search_options_of(const detail::Instance& instance, const O
 
 class Run {
  public:
-  // Both arguments must outlive this.
+  // Both arguments must outlive this object.
   Run(const detail::Instance& instance, const Options& options);
 
   // Returns the result of search(limits, observer), with further statistics. Rethrows what the

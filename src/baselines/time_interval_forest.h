@@ -28,7 +28,7 @@ class TimeIntervalForest : public Legs {
   struct Piece {
     Cell cell;
     Time begin;
-    Time end;  // inclusive; kNever: for ever
+    Time end;  // inclusive; kNever: forever
     Time steps;
     std::int32_t next;
   };

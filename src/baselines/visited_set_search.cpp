@@ -13,7 +13,7 @@
 //   nearest task left, the new tree spans i again. If no task is left, h is the distance to the
 //   destination or, if there is none, to the nearest own task.
 // - *End.* The agent finishes on its destination or, if it has none, on any own task, if no
-//   constraint forbids it to stay there for ever.
+//   constraint forbids it to stay there forever.
 // - *Finitely many states.* From the time on at which the constraints are constant, all times are
 //   one state, which keeps the earliest time. The search can therefore prove that an agent has no
 //   path.

@@ -21,7 +21,7 @@
 //
 // *End.* With a destination, the leg to it follows when no stop is left. Without one, the agent
 // rests on a stop of its own, which is counted last. So the last goal must be reached in an
-// interval in which the agent may stay for ever. The other goals only have to be reached.
+// interval in which the agent may stay forever. The other goals only have to be reached.
 #include "baselines/visiting_order_search.h"
 
 #include <algorithm>

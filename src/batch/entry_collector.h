@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Collects the instances of a batch and checks them.
+// Collects the instances of a batch. Rejects duplicates and ids that cannot be file names.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@ inline constexpr std::string_view kInstanceSuffix = ".cts.json";
 std::string id_of(const std::filesystem::path& path, const std::filesystem::path& folder,
                   int agents);
 
-// Collects entries and rejects invalid ones.
+// Collects entries. Rejects duplicates and unsuitable ids. Does not validate instances.
 class EntryCollector {
  public:
   // `source`: the manifest or the folder, for error messages.

@@ -18,9 +18,10 @@ std::optional<Split> target_split(const Conflict& conflict, std::span<const Path
                                   const World& world, const Corridors& corridors);
 
 // Corridor reasoning (corridor.cpp). If the two agents of the conflict meet while they traverse a
-// corridor in opposite directions, returns the split "one agent does not arrive at its far end in
-// its time range | the other agent does not arrive at the opposite end in its own"; otherwise
-// nullopt.
+// corridor in opposite directions, returns the split "one agent does not complete a traversal to
+// its far end in a time range | the other agent does not complete one to the other end in another
+// time range". Each may arrive there without a traversal. Returns nullopt otherwise, and for a
+// following conflict.
 std::optional<Split> corridor_split(const Conflict& conflict, std::span<const Path> paths,
                                     const World& world, const Corridors& corridors);
 

@@ -2,7 +2,7 @@
 // Target reasoning (Li, Harabor, Stuckey, Ma, Gange and Koenig, AIJ 2021), without the labels used
 // there, for agents with several goals.
 //
-// *Problem.* Agent a stays on place v for ever from time f on, and b passes v at t >= f. The
+// *Problem.* Agent a stays on place v forever from time f on, and b passes v at t >= f. The
 // standard split bars a from v at t, so that a arrives later or steps aside and returns, or it bars
 // b from v at t. The same conflict then occurs at t + 1, t + 2, ... The following split resolves
 // all of these conflicts at once:

@@ -20,7 +20,7 @@ namespace grove::detail {
 // Thread-safe, except for resume_at(), which must be called before the search.
 class CentralBounds : public SharedBounds {
  public:
-  // All references must outlive this. `trees_from`: lower bound on all trees of the run.
+  // All references must outlive this object. `trees_from`: lower bound on all trees of the run.
   CentralBounds(const Instance& instance, Omega omega, const Limits& limits, LiveNodes& nodes,
                 RunEvents& run_events, Cost trees_from)
       : limits_(limits),

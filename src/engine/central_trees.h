@@ -21,7 +21,7 @@ namespace grove::detail {
 // no node is live but some were evicted, it pushes all roots again.
 class CentralTrees : public TreeSource {
  public:
-  // All arguments must outlive this.
+  // All arguments must outlive this object.
   CentralTrees(const SolveOptions& options, Forest& forest, LiveNodes& nodes,
                CentralBounds& shared_bounds, RunEvents& run_events);
 

@@ -31,7 +31,7 @@ struct CheckpointReport {
 // Decides when a checkpoint is due. One thread at a time.
 class CheckpointTimer {
  public:
-  // Uses the clock of `limits`. Both arguments must outlive this.
+  // Uses the clock of `limits`. Both arguments must outlive this object.
   CheckpointTimer(const Checkpoints& checkpoints, const Limits& limits)
       : checkpoints_(checkpoints), limits_(limits), last_(limits.now()) {}
 

@@ -14,7 +14,8 @@ namespace grove::detail {
 // The scheduling rule is at the head of the .cpp. One thread at a time.
 class JointScheduler {
  public:
-  // `instance` and `tuning` must outlive this. If `wanted` is false, the search is never due.
+  // `instance` and `tuning` must outlive this object. If `wanted` is false, the search is never
+  // due.
   JointScheduler(const Instance& instance, const Tuning& tuning, bool wanted);
 
   // Records `work` units of effort of the tree search and the primal search.

@@ -22,11 +22,11 @@ namespace grove::detail {
 // communicating thread may call.
 class LagrangianScheduler {
  public:
-  // `tuning` must outlive this. due() returns false until open() or help() is called.
+  // `tuning` must outlive this object. due() returns false until open() or help() is called.
   explicit LagrangianScheduler(const Tuning& tuning) : tuning_(tuning) {}
 
-  // Must be called before the search, where the bound is owned. `instance` must outlive this.
-  // `keeps_reasons`: whether to record what log_proof() needs.
+  // Must be called before the search, where the bound is owned. `instance` must outlive this
+  // object. `keeps_reasons`: whether to record what log_proof() needs.
   void open(const Instance& instance, const AgentStopsCache& stops, bool keeps_reasons);
 
   // Records `work` units of effort of the tree search and the primal search.

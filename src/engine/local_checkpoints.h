@@ -14,7 +14,7 @@ namespace grove::detail {
 // Writes the checkpoints of a run. write_if_due() is thread-safe.
 class LocalCheckpoints {
  public:
-  // All arguments must outlive this.
+  // All arguments must outlive this object.
   LocalCheckpoints(const SolveOptions& options, const Limits& limits, RunState& run,
                    LocalNodes& nodes)
       : options_(options),

@@ -16,7 +16,7 @@ namespace grove::detail {
 // for set_statistics_source() and bound_is_known().
 class RunEvents : public WorkObserver {
  public:
-  // `observer` and everything that `progress` reads must outlive this.
+  // `observer` and everything that `progress` reads must outlive this object.
   RunEvents(RunObserver& observer, std::function<Progress()> progress)
       : observer_(observer), progress_(std::move(progress)) {}
   // Sets the function that makes the statistics, for an observer that requests them. Must be called

@@ -82,7 +82,7 @@ class RunObserver {
 // Forwards every call to another observer. Derived classes override the functions that they change.
 class ForwardingObserver : public RunObserver {
  public:
-  // `next` must outlive this.
+  // `next` must outlive this object.
   explicit ForwardingObserver(RunObserver& next) : next_(next) {}
 
   void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override {

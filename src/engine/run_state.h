@@ -24,7 +24,7 @@ namespace grove::detail {
 // at a time, except where a function says otherwise.
 class RunState {
  public:
-  // All arguments must outlive this. The nodes of the trees are made in `pool`.
+  // All arguments must outlive this object. The nodes of the trees are made in `pool`.
   RunState(const Problem& problem, const SolveOptions& options, const Limits& limits,
            RunObserver& observer, NodePool& pool, LiveNodes& nodes);
 

@@ -38,7 +38,7 @@ namespace grove::detail {
 // Output archive that appends to a string.
 class BytesOutput : public cereal::OutputArchive<BytesOutput, cereal::AllowEmptyClassElision> {
  public:
-  // `bytes` must outlive this.
+  // `bytes` must outlive this object.
   explicit BytesOutput(std::string& bytes) : OutputArchive(this), bytes_(bytes) {}
 
   void put(std::uint8_t byte) { bytes_ += static_cast<char>(byte); }
@@ -73,7 +73,7 @@ class BytesOutput : public cereal::OutputArchive<BytesOutput, cereal::AllowEmpty
 // cereal::Exception.
 class GuardedInput : public cereal::InputArchive<GuardedInput, cereal::AllowEmptyClassElision> {
  public:
-  // `bytes` must outlive this.
+  // `bytes` must outlive this object.
   explicit GuardedInput(std::string_view bytes) : InputArchive(this), rest_(bytes) {}
 
   std::size_t left() const { return rest_.size(); }

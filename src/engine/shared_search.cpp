@@ -56,7 +56,7 @@ std::size_t room(std::size_t limit) {
 // limit stops the run.
 class MemoryBudgets {
  public:
-  // `limits` must outlive this. `node_bytes`: initial budget for nodes, in bytes.
+  // `limits` must outlive this object. `node_bytes`: initial budget for nodes, in bytes.
   MemoryBudgets(const Limits& limits, std::size_t node_bytes);
 
   // True if the process is near its limit despite the current budgets.

@@ -46,7 +46,7 @@ class MemoryBudgets;
 // thread takes.
 class SharedSearch {
  public:
-  // All arguments must outlive this.
+  // All arguments must outlive this object.
   SharedSearch(const SolveOptions& options, const Limits& limits, LocalNodes& nodes,
                SharedBounds& shared_bounds, TreeSource& trees, WorkObserver& observer);
   ~SharedSearch();

@@ -21,8 +21,8 @@ class PrimalScheduler;
 // instances with few joint states. One thread at a time, except where a function says otherwise.
 class Worker {
  public:
-  // All arguments must outlive this, except `stops`, which is copied. `number`: number of the
-  // worker, from 0; also selects the seed of its primal search.
+  // All arguments must outlive this object, except `stops`, which is copied. `number`: number of
+  // the worker, from 0; also selects the seed of its primal search.
   Worker(const Problem& problem, const SolveOptions& options, const Limits& limits,
          SharedSearch& shared, const AgentStopsCache& stops, int number);
   ~Worker();

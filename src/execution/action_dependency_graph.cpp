@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Proof that robots that execute an action dependency graph neither collide nor wait for ever.
+// Proof that robots that execute an action dependency graph neither collide nor wait forever.
 //
 // Definitions. The *row* of a place is the list of the stays of robots on this place in the plan,
 // in order of time. A stay begins with the robot's move onto the place and ends with its move away.

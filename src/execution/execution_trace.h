@@ -10,7 +10,7 @@
 
 namespace grove::detail {
 
-// The begin and completion time of each action, by ActionIndex; kNever if the action was not begun
+// The start and completion time of each action, by ActionIndex; kNever if the action was not begun
 // or not completed.
 struct ExecutionTrace {
   std::vector<Time> begin;
@@ -39,9 +39,10 @@ ExecutionTrace simulate(const ActionDependencyGraph& order, const Duration& dura
 // Simulates the execution without delays: every action takes as long as in the plan.
 ExecutionTrace simulate_nominal(const ActionDependencyGraph& order);
 
-// Returns the executed plan. If an action took longer than in `plan`, the plan contains a wait of
-// this difference before it. If all robots completed all actions, the result is a valid plan of
-// `instance`; otherwise it contains only the completed actions.
+// Returns the plan as executed. An action that took longer than in `plan` is preceded by a wait for
+// the extra time; a task execution that is in progress at the start is followed by it. If all
+// robots completed all actions, the result is a valid plan of `instance`; otherwise it contains
+// only the completed actions.
 Plan executed_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
                    const ExecutionTrace& trace);
 

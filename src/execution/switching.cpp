@@ -63,10 +63,10 @@ class PlaceRows {
     return before.agent == visits_[visit].agent ? kNoAction : before.leaves;
   }
 
-  // Returns the visits to the places around the one that `entering` enters, which the robot of
-  // `entering` and `other` pass consecutively, in the same or in opposite directions. Each pair
-  // consists of the visit of `other` and that of the robot itself to one place; only places that
-  // `other` passes first are included.
+  // Returns the visits to the contested places: the longest run of places, with the one that
+  // `entering` enters, that both robots visit one after another, in the same or in opposite
+  // directions. Each pair is (visit by `other`, visit by the robot of `entering`) to one place.
+  // Places that `other` does not pass first are left out.
   std::vector<std::pair<int, int>> group(ActionIndex entering, AgentIndex other) const {
     const int mine = number_[entering];
     const auto& row = rows_[place_[mine]];

@@ -51,7 +51,7 @@ struct Scale {
 
 // Writes timed waypoints (CSV) with the columns robot, seconds, x, y (metres), theta (radians,
 // counterclockwise from x) and task. There is a row for each arrival at a place, for each step of a
-// turn, and for the begin and end of each wait and of each task execution. Between rows robots move
+// turn, and for the start and end of each wait and of each task execution. Between rows robots move
 // at constant speed. theta is the heading; for robots that turn freely it is the direction of the
 // next move, and after the last move the direction of that move. task is the id of the task that
 // the robot visits or executes at that time.

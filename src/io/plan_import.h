@@ -43,7 +43,7 @@ Plan plan_of_paths(const Instance& instance, std::vector<Path> paths);
 ClaimedPlan read_plan_of_any_tool(const std::filesystem::path& path, const Instance& instance);
 
 // A plan of any tool, with the cost recomputed as the sum of the times from which the agents rest
-// for ever. Other claims of the file are removed from `solution`.
+// forever. Other claims of the file are removed from `solution`.
 struct RecountedPlan {
   Solution solution;  // for check(), with lower bound 0 and omega inf; without a plan if the file
                       // has none

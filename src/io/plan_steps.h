@@ -17,7 +17,7 @@ inline std::span<const Cell> until_rest(const Path& path) {
   return {path.data(), size};
 }
 
-// The earliest time at which all agents rest for ever.
+// The earliest time at which all agents rest forever.
 inline Time makespan(const Plan& plan) {
   std::size_t last = 0;
   for (const AgentPlan& agent : plan.agents) last = std::max(last, until_rest(agent.path).size());

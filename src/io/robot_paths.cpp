@@ -132,7 +132,7 @@ void write_waypoints(const std::filesystem::path& path, const Instance& instance
 void write_nav_paths(const std::filesystem::path& path, const Instance& instance,
                      const Solution& solution, const Scale& scale) {
   std::string text =
-      "# One nav_msgs/Path for each robot. Stamps count from the begin of the plan.\n";
+      "# One nav_msgs/Path for each robot. Stamps are relative to the start of the plan.\n";
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
     text +=
         fmt::format("{}:\n  header: {{stamp: {{sec: 0, nanosec: 0}}, frame_id: map}}\n  poses:\n",

@@ -58,7 +58,7 @@ class IgnoringHandler : public YAML::EventHandler {
 };
 
 // Throws InputError if the text has more than one document, because Load() would ignore all but the
-// first. LoadAll() is not used, because it finds empty documents for ever after a stray comma.
+// first. LoadAll() is not used, because it finds empty documents forever after a stray comma.
 void require_one_document(const std::string& file, const std::string& text) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);

@@ -12,8 +12,8 @@
 
 namespace grove::detail {
 
-// A node is a motion state, the set of stops left, and whether the agent has come to rest for ever.
-// Where the agent may rest with no stop left, one move is to rest: the agent then stays for ever at
+// A node is a motion state, the set of stops left, and whether the agent has come to rest forever.
+// Where the agent may rest with no stop left, one move is to rest: the agent then stays forever at
 // no further cost. All other moves, waits included, cost 1. The graph omits nodes from which the
 // agent cannot come to rest, and task executions that serve no stop. (Under time-dependent
 // constraints a node also has a time; see time_expanded_graphs.h.) Immutable: any thread may read

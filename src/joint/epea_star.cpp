@@ -3,7 +3,7 @@
 //
 // *States.* A joint state holds a node of agent_graph.h for each agent. A step moves all agents at
 // once and costs 1 for each agent that is not at rest, so the cost of a path is the sum of the
-// finish times. To rest for ever is a decision: an agent that could rest may continue instead, at a
+// finish times. To rest forever is a decision: an agent that could rest may continue instead, at a
 // cost.
 //
 // *Estimate.* The estimate is the sum of the agents' individual costs to go, plus what groups of

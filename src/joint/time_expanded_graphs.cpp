@@ -2,7 +2,7 @@
 // *Forward pass*, time by time. A node is a slot of safe_intervals.h (the state and everything that
 // constraints require of the past), a stage of sequence_stages.h, and a time. From a node the agent
 // may wait while the slot lasts, or make a move that arrives one step later. To rest is a decision,
-// which is possible wherever a slot permits resting for ever with no stop left. An agent that could
+// which is possible wherever a slot permits resting forever with no stop left. An agent that could
 // rest but waits pays for the wait, as in any agent graph. Where states are places, a deadline for
 // coming to rest (kRestBy) limits the cost; elsewhere the slots express it.
 //

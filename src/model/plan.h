@@ -18,7 +18,7 @@
 namespace grove::detail {
 
 // The states of an agent at times 0, 1, ...: path[0] is its start, and after the end of the path
-// the agent stays in path.back() for ever.
+// the agent stays in path.back() forever.
 using Path = std::vector<State>;
 
 // The state at `time` of an agent with this path. Preconditions: the path is not empty, and time >=
@@ -31,7 +31,7 @@ inline State state_at(const Path& path, Time time) {
 inline Place place_at(const World& world, const Path& path, Time time) {
   return world.place(state_at(path, time));
 }
-// The time from which the agent stays on its last place for ever. The path may continue on this
+// The time from which the agent stays on its last place forever. The path may continue on this
 // place, for example with turns.
 Time last_arrival(const World& world, const Path& path);
 
@@ -45,7 +45,7 @@ struct WorkTime {
 };
 
 struct AgentPlan {
-  Time cost = 0;  // finish time: the agent then rests for ever, with all tasks visited
+  Time cost = 0;  // finish time: the agent then rests forever, with all tasks visited
   std::vector<TaskIndex> sequence;  // all tasks, in an order in which the path visits them
   Path path;                        // base states only (world.h), up to time `cost`
   std::vector<WorkTime> work = {};  // in order of time

@@ -13,7 +13,7 @@ namespace grove::detail {
 // many tasks are large, so all searches of one thread should share one cache. One thread at a time.
 class AgentStopsCache {
  public:
-  // `instance` and `distances` must outlive this.
+  // `instance` and `distances` must outlive this object.
   AgentStopsCache(const Instance& instance, const DistanceFields& distances)
       : instance_(instance), distances_(distances), stops_(instance.agent_count()) {}
 

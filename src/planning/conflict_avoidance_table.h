@@ -19,7 +19,7 @@ namespace grove::detail {
 // time.
 class ConflictAvoidanceTable {
  public:
-  // `world` must outlive this.
+  // `world` must outlive this object.
   explicit ConflictAvoidanceTable(const World& world);
 
   // An empty path (of an agent that is not yet planned) adds nothing.

@@ -22,11 +22,11 @@ enum class ConstraintKind : std::uint8_t {
   // after the finish counts. With `from`: the agent makes no move from `from` to `cell` that
   // arrives at a time in [begin, end].
   kVertexOrEdge = 0,
-  // The agent does not come to rest for ever on `cell` at `end` or earlier: if it rests there, it
+  // The agent does not come to rest forever on `cell` at `end` or earlier: if it rests there, it
   // makes its last move to the place later than `end`. (Target reasoning: Li et al. 2021.) `from`
   // and `begin` are not used.
   kNoRestBy = 1,
-  // The agent comes to rest for ever on `cell`, at `end` or earlier. `from` and `begin` are not
+  // The agent comes to rest forever on `cell`, at `end` or earlier. `from` and `begin` are not
   // used.
   kRestBy = 2,
   // The agent does not traverse a corridor (corridors.h) such that it arrives on the end `cell`,
@@ -56,7 +56,7 @@ struct Constraint {
   Cell cell = kNoCell;
   Cell from = kNoCell;
   Time begin = 0;
-  Time end = 0;  // kNever: for ever
+  Time end = 0;  // kNever: forever
   ConstraintKind kind = ConstraintKind::kVertexOrEdge;
 
   bool is_move() const { return kind == ConstraintKind::kVertexOrEdge && from != kNoCell; }

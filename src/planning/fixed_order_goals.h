@@ -13,7 +13,7 @@
 //
 // Two pruning rules use the fixed order of the goals:
 //
-// *Deadlines.* If goal k is barred for ever after time d, a label of progress p <= k can lead to a
+// *Deadlines.* If goal k is barred forever after time d, a label of progress p <= k can lead to a
 // path only if t + (distance through goals p to k) <= d, that is, f <= d + after_goal(k).
 // Stage::latest of progress p is the least d + after_goal(k) over all k >= p. A constraint that the
 // agent must rest by time r (kRestBy) also limits f, to r + longest_finish(), because a path of

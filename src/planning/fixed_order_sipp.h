@@ -18,7 +18,7 @@ namespace grove::detail {
 // fixed_order_goals.h. One thread at a time. It keeps its workspace between calls, so reuse it.
 class FixedOrderSipp {
  public:
-  // `world` must outlive this.
+  // `world` must outlive this object.
   explicit FixedOrderSipp(const World& world);
   ~FixedOrderSipp();
 

@@ -25,7 +25,7 @@ void FreeOrderGoals::find_deadlines(const SafeIntervals& intervals) {
   }
 }
 
-// Computes the first time at which the agent may come to rest for ever on any of its places of
+// Computes the first time at which the agent may come to rest forever on any of its places of
 // rest. Without a destination, also finds the stop on which a constraint forces it to rest. (With a
 // destination the heuristic already leads there.)
 void FreeOrderGoals::find_rests(const SafeIntervals& intervals) {

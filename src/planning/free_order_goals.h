@@ -17,7 +17,7 @@
 // cover. is_complete() returns false if a dropped label could have led to a path. The head of
 // free_order_sipp.cpp states what each result proves.
 //
-// *Deadlines.* If a stop is barred for ever after time d, a label that has this stop left can lead
+// *Deadlines.* If a stop is barred forever after time d, a label that has this stop left can lead
 // to a path only if t + dist(state, stop) <= d.
 //
 // *Gates.* Labels that were expanded on stops dominate continuations of other labels
@@ -91,7 +91,7 @@ class FreeOrderGoals {
   }
 
  private:
-  // A stop that is barred for ever after `time`.
+  // A stop that is barred forever after `time`.
   struct Deadline {
     int stop;
     Time time;

@@ -31,7 +31,7 @@
 // optimal, no matter which sequence it realizes. If the first rest is later than outside_bound(),
 // labels are kept up to the first rest.
 //
-// *Late costs.* If places are barred for ever, the plain costs to go ignore the detour around them,
+// *Late costs.* If places are barred forever, the plain costs to go ignore the detour around them,
 // and a search that uses them can try all orders. So once per hard call, and before the costs to go
 // are widened, the costs of the legs are recomputed (late_costs.cpp). If the best sequence costs
 // more with the new legs, the search restarts with separate costs to go over the new legs. All of

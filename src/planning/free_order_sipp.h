@@ -14,7 +14,7 @@ namespace grove::detail {
 // field of a PathQuery.
 class FreeOrderSipp : public AgentPlanner {
  public:
-  // `world` must outlive this.
+  // `world` must outlive this object.
   explicit FreeOrderSipp(const World& world);
   ~FreeOrderSipp() override;
 

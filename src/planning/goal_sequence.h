@@ -17,7 +17,7 @@ namespace grove::detail {
 class GoalSequence {
  public:
   // `stops`: the tasks of all stops of the agent, in the order of visits. `instance` and
-  // `distances` must outlive this.
+  // `distances` must outlive this object.
   GoalSequence(const Instance& instance, const DistanceFields& distances, AgentIndex agent,
                const std::vector<TaskIndex>& stops);
 

@@ -20,12 +20,12 @@ enum class Dependence : std::uint8_t {
   kUnknown,      // `max_pairs` was exceeded or a limit was reached
 };
 
-// The joint search over two MDDs from CBS with the WDG heuristic (Li et al., IJCAI 2019). The proof
-// is at the head of joint_mdd_search.cpp. One thread at a time. It keeps its workspace between
-// calls, so reuse it.
+// Decides by a joint search over two MDDs whether two agents depend on each other, as in CBS with
+// the WDG heuristic (Li et al., IJCAI 2019), but depth-first. The proof is at the head of
+// joint_mdd_search.cpp. One thread at a time. Reuse the object, because it keeps its workspace.
 class JointMddSearch {
  public:
-  // `world` must outlive this.
+  // `world` must outlive this object.
   explicit JointMddSearch(const World& world);
   ~JointMddSearch();
 

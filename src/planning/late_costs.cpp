@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Problem: target reasoning and long constraints bar places for ever from some time on. Distances
+// Problem: target reasoning and long constraints bar places forever from some time on. Distances
 // on the bare map ignore that, so a search that uses them tries every order whose cost is below
 // that of the detour. Method: legs that provably begin late are charged for the detour.
 //
@@ -10,7 +10,7 @@
 // induction: the agent is on c_k at t + k, so e + depth(c_{k-1}) + 1 <= e + k <= t + k <=
 // last(c_k), and the search enters c_k by depth k.
 //
-// *Earliest begin of a leg.* No path counts stop i before dist(start, i). Consider a path that
+// *Earliest start of a leg.* No path counts stop i before dist(start, i). Consider a path that
 // realizes a sequence s with i as its last stop. Until it counts i, the path visits all stops of s,
 // which takes at least cost(s) - to_end(i) steps. Since cost(s) >= min_cost, the leg from i to
 // the end begins at min_cost - to_end(i) or later. The costs cost(s) and to_end(i) are costs

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Late costs: lower bounds on legs that take into account the times from which places are barred
-// for ever. (The *plain* costs ignore constraints.) Also the stages of an agent over these costs.
+// forever. (The *plain* costs ignore constraints.) Also the stages of an agent over these costs.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ std::optional<CostMatrix> late_cost_matrix(const World& world, SafeIntervals& in
 // actual costs. One thread at a time.
 class LateStages {
  public:
-  // `world` and `intervals` must outlive this.
+  // `world` and `intervals` must outlive this object.
   LateStages(const World& world, SafeIntervals& intervals) : world_(world), intervals_(intervals) {}
 
   // Returns the stages of the class of `plain` over late costs. Returns nullptr if they do not

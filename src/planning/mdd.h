@@ -72,7 +72,7 @@ class MddBuilder {
     kStopped,   // a limit was reached
   };
 
-  // `world` must outlive this.
+  // `world` must outlive this object.
   explicit MddBuilder(const World& world);
   ~MddBuilder();
 

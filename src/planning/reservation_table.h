@@ -27,8 +27,8 @@ class ReservationTable {
     AgentIndex agent;  // the agent that stays
   };
 
-  // `world` must outlive this. A place also counts as occupied for `margin` steps before and after
-  // each stay.
+  // `world` must outlive this object. A place also counts as occupied for `margin` steps before and
+  // after each stay.
   explicit ReservationTable(const World& world, Time margin = 0)
       : world_(world), margin_(margin), stays_(world.place_count()) {}
 
@@ -51,7 +51,7 @@ class ReservationTable {
   // May an agent that is not in the table be on `to` at time `arrival`, coming from the neighbor
   // `from`, or by a wait if `from` == `to`?
   bool may_arrive(Place from, Place to, Time arrival) const;
-  // May an agent that is not in the table rest on the place for ever from time `from` on?
+  // May an agent that is not in the table rest on the place forever from time `from` on?
   bool may_rest_from(Place place, Time from) const {
     return stays_[place].empty() || std::int64_t{stays_[place].back().last} + margin_ < from;
   }

@@ -20,10 +20,10 @@
 // depend on no other part of the past.)
 //
 // *Finish.* The agent may come to rest only after all goals are visited and in an interval that
-// permits rest. A label with both properties is a *finish*. The *first rest* is the least begin of
-// an interval in which the agent may rest. No path costs less, so a finish at that time is optimal,
-// no matter which f the search has reached. The raised heuristic max(t + h, first rest) would have
-// the same effect, but with a plateau.
+// permits rest. A label with both properties is a *finish*. The *first rest* is the earliest start
+// of an interval in which the agent may rest. No path costs less, so a finish at that time is
+// optimal, no matter which f the search has reached. The raised heuristic max(t + h, first rest)
+// would have the same effect, but with a plateau.
 //
 // *Order.* Labels are popped by layer, which is f = t + h unless Goals defines another value. When
 // a label is popped, it can be postponed to a later layer; Goals has the proof that this loses no
@@ -81,7 +81,7 @@ class SafeIntervalSearch {
     kStopped,    // a limit was reached
   };
 
-  // `world` must outlive this.
+  // `world` must outlive this object.
   explicit SafeIntervalSearch(const World& world) : world_(world), intervals_(world) {}
 
   // Set both before begin(), and do not change them while the search runs.

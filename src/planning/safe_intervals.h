@@ -21,10 +21,10 @@ namespace grove::detail {
 struct SafeInterval {
   State state = kNoState;
   Time begin = 0;
-  Time end = kNever;           // inclusive; kNever: for ever
+  Time end = kNever;           // inclusive; kNever: forever
   Time last_arrival = kNever;  // agents that arrive later are in another interval
   std::uint8_t copy = 0;       // copy of the place, see SafeIntervals
-  bool may_rest = false;       // may the agent rest here for ever?
+  bool may_rest = false;       // may the agent rest here forever?
   // With reservations: the place to which the previous agent moves when it leaves this place;
   // kNoPlace if there was none.
   Place left_for = kNoPlace;
@@ -45,7 +45,7 @@ struct SafeInterval {
 // Each arrival leads to one slot, and the slot determines the continuations after the arrival:
 //
 // - *No rest by t.* If the interval [b, inf) of a place has b <= t, it becomes two overlapping
-//   slots. An agent that arrives at t or earlier may stay for any time, but not for ever. An agent
+//   slots. An agent that arrives at t or earlier may stay for any time, but not forever. An agent
 //   that arrives later may rest. (A turn on the place is no arrival: the time of arrival is the
 //   time at which the agent came to the place.)
 // - *Rest by t.* If agents can turn or execute tasks after their last arrival, the interval is
@@ -58,7 +58,7 @@ struct SafeInterval {
 //   traversals are permitted, and agents that are inside at time 0.
 class SafeIntervals {
  public:
-  // `world` must outlive this.
+  // `world` must outlive this object.
   explicit SafeIntervals(const World& world);
 
   // Replaces the constraints. The list can have any order, overlaps and duplicates. Throws
@@ -83,7 +83,7 @@ class SafeIntervals {
   Time last_arrival(int slot) const {
     return slot < states_ ? kNever : interval(slot).last_arrival;
   }
-  // May an agent that arrived in this slot stay for ever? If states are places, this does not test
+  // May an agent that arrived in this slot stay forever? If states are places, this does not test
   // the time of kRestBy, because the last arrival is then the finish, which callers compare with
   // latest_rest().
   bool may_rest(int slot) const {
@@ -117,13 +117,13 @@ class SafeIntervals {
   }
   // The slot of an agent that starts in `state` at time 0; -1 if a constraint bars this.
   int start_slot(State state) const;
-  // The begin of the first slot of `place` in which the agent may rest; kNever if there is none.
+  // The start of the first slot of `place` in which the agent may rest; kNever if there is none.
   Time rest_begin(Place place) const;
   // The last time at which the agent may be on `place`; -1 if there is none.
   Time last_time(Place place) const {
     return first_slot(place) == end_slot(place) ? -1 : end_of(end_slot(place) - 1);
   }
-  // The begin of the next slot of the same state and copy; kNever if there is none.
+  // The start of the next slot of the same state and copy; kNever if there is none.
   Time next_begin(int slot) const;
 
   // The time by which the agent must have arrived at its place of rest (kRestBy); kNever: no limit.

@@ -28,8 +28,8 @@ class AgentStops {
  public:
   static constexpr int kNoStop = -1;
 
-  // `instance` and `distances` must outlive this. If the distances are in shared memory, the large
-  // arrays are there, too.
+  // `instance` and `distances` must outlive this object. If the distances are in shared memory, the
+  // large arrays are there, too.
   AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent);
 
   const Instance& instance() const { return *instance_; }
@@ -141,11 +141,11 @@ class SequenceStages {
     Time cost;
   };
 
-  // `stops` must outlive this. Throws std::invalid_argument if the prefix repeats a stop or
+  // `stops` must outlive this object. Throws std::invalid_argument if the prefix repeats a stop or
   // contains a stop that the agent does not have.
   SequenceStages(AgentStops& stops, SequenceClass sequence_class);
   // As above, but with `cost_to_go` in place of the costs to go of `stops`. It must be valid for
-  // this class and have the same number of stops and ports, and must outlive this.
+  // this class and have the same number of stops and ports, and must outlive this object.
   SequenceStages(AgentStops& stops, SequenceClass sequence_class, CostToGo& cost_to_go);
 
   AgentStops& stops() { return stops_; }

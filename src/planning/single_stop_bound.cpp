@@ -20,7 +20,7 @@ Time SingleStopBound::min_cost(const AgentStops& stops, Time known_bound, const 
   return bound_;
 }
 
-// Returns the first time at which the agent can rest for ever after visiting the stop `via`, at
+// Returns the first time at which the agent can rest forever after visiting the stop `via`, at
 // least bound_; kNever if that is impossible.
 Time SingleStopBound::min_cost_through(int via) {
   via_ = via;

@@ -14,11 +14,11 @@ namespace grove::detail {
 // Computes for each stop the earliest time at which the agent can come to rest after visiting this
 // stop. The other stops only make that time later, so it is a lower bound on the cost. This takes
 // polynomial time, whereas the problem for all stops together is NP-hard. The bound detects the
-// most common infeasible case: a door that is closed before or behind the agent, for ever or for a
+// most common infeasible case: a door that is closed before or behind the agent, forever or for a
 // long time. One thread at a time.
 class SingleStopBound {
  public:
-  // `world` and `intervals` must outlive this.
+  // `world` and `intervals` must outlive this object.
   SingleStopBound(const World& world, SafeIntervals& intervals)
       : world_(world), intervals_(intervals) {}
 

@@ -19,7 +19,7 @@ class Lacam {
 
   // `problem`, `orders` and `seed` are as for LacamWithRestarts. `guide`: distance fields that
   // agents follow until a configuration is reached a second time; nullptr: distances in steps. The
-  // fields must outlive this.
+  // fields must outlive this object.
   Lacam(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed,
         const LegFields* guide = nullptr);
   Lacam(const Lacam&) = delete;

@@ -21,7 +21,7 @@ namespace grove::detail {
 // chooses the order of each agent's tasks. One thread at a time.
 class LargeNeighborhoodSearch {
  public:
-  // All references must outlive this.
+  // All references must outlive this object.
   LargeNeighborhoodSearch(const Problem& problem, PrimalLowLevel& low_level, PlannedPaths& paths,
                           Random& random, const Tuning& tuning)
       : low_level_(low_level),

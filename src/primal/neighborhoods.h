@@ -20,7 +20,7 @@ namespace grove::detail {
 // thread at a time.
 class Neighborhoods {
  public:
-  // All references must outlive this.
+  // All references must outlive this object.
   Neighborhoods(const Problem& problem, const PrimalLowLevel& low_level, const PlannedPaths& paths,
                 Random& random, const Tuning& tuning)
       : problem_(problem), low_level_(low_level), paths_(paths), random_(random), tuning_(tuning) {}

@@ -20,7 +20,7 @@ struct LacamConstraint {
 // Makes joint steps by priority inheritance with backtracking (PIBT). One thread at a time.
 class PibtGenerator {
  public:
-  // `world` and `agents` must outlive this.
+  // `world` and `agents` must outlive this object.
   PibtGenerator(const World& world, std::vector<VisitStages>& agents);
 
   // Makes a collision-free joint step from `from` that satisfies all constraints in `constraints`.

@@ -20,7 +20,7 @@ namespace grove::detail {
 // agent. One thread at a time.
 class PrimalLowLevel {
  public:
-  // Both references must outlive this.
+  // Both references must outlive this object.
   PrimalLowLevel(const Problem& problem, AgentStopsCache& stops);
 
   // Individual planning: finds the agent's best path without the other agents, or a good path if

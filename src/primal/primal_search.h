@@ -34,7 +34,8 @@ class PrimalSearch {
     std::int64_t low_level_expanded = 0;
   };
 
-  // All references must outlive this. `stops` can be shared with other searches on the same thread.
+  // `problem` and `stops` must outlive this object. `stops` can be shared with other searches on
+  // the same thread.
   PrimalSearch(const Problem& problem, AgentStopsCache& stops, std::uint64_t seed,
                Techniques techniques = Techniques::defaults(), const Tuning& tuning = {});
   ~PrimalSearch();

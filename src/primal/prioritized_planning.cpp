@@ -7,7 +7,7 @@
 // *Order after a failure.* The agent that failed is moved to the front of the order, and planning
 // restarts. (Bennewitz et al. 2002 exchange random agents instead. In measurements, moving to the
 // front succeeded on far denser instances than random orders.) Two agents that enclose each other
-// would alternate for ever, so the order is shuffled whenever the number of failures is a multiple
+// would alternate forever, so the order is shuffled whenever the number of failures is a multiple
 // of the number of agents.
 //
 // *Partial re-planning.* If the current order has taken many labels (pp_resume_labels), planning

@@ -25,7 +25,7 @@ class PrioritizedPlanning {
     kStopped,  // a limit was reached; step() may be called again
   };
 
-  // All references must outlive this.
+  // All references must outlive this object.
   PrioritizedPlanning(const World& world, PrimalLowLevel& low_level, PlannedPaths& paths,
                       Random& random, const Tuning& tuning)
       : world_(world), low_level_(low_level), paths_(paths), random_(random), tuning_(tuning) {}

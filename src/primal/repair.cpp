@@ -2,7 +2,7 @@
 // Repair by a queue of agents without a path. The first agent in the queue gets the best path
 // around the agents that have one. If no path exists, or none is found within the label limit, the
 // paths of the agents that block its individual path are removed, and these agents are appended to
-// the queue. Two agents that enclose each other could alternate for ever. Therefore, after many
+// the queue. Two agents that enclose each other could alternate forever. Therefore, after many
 // failures, the agents that block the individual path with a delay are removed, too, and the number
 // of failures is limited.
 #include "primal/repair.h"

@@ -22,7 +22,7 @@
 // has lower priority; for an agent behind it, if they must pass each other; and for an agent behind
 // it that heads for the end of the corridor, but only if that agent has already chosen and so has
 // higher priority. Without this last condition two agents that both head for the end would let each
-// other pass for ever.
+// other pass forever.
 //
 // *Condition.* Swaps are made only in plain worlds (World::is_plain()), in which every step can be
 // undone and each place has one state.

@@ -15,8 +15,8 @@ class Swaps {
  public:
   static constexpr AgentIndex kNoAgent = -1;
 
-  // All references must outlive this. `now`: by place, the agent there, or kNoAgent. `to`: by
-  // agent, the next state, or kNoState if it is not decided yet.
+  // All references must outlive this object. `now`: by place, the agent there, or kNoAgent. `to`:
+  // by agent, the next state, or kNoState if it is not decided yet.
   Swaps(const World& world, const std::vector<VisitStages>& agents,
         const std::vector<AgentIndex>& now, const std::vector<State>& to)
       : world_(world), agents_(agents), now_(now), to_(to) {}

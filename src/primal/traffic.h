@@ -18,9 +18,9 @@ namespace grove::detail {
 // thread at a time.
 class Traffic {
  public:
-  // `world` and `tuning` must outlive this. `usual`: amount of traffic that raises the cost of a
-  // step by vertex_congestion_weight (traffic on the place) or contraflow_weight (traffic in the
-  // opposite direction) times its cost without traffic.
+  // `world` and `tuning` must outlive this object. `usual`: amount of traffic that raises the cost
+  // of a step by vertex_congestion_weight (traffic on the place) or contraflow_weight (traffic in
+  // the opposite direction) times its cost without traffic.
   Traffic(const World& world, double usual, const Tuning& tuning);
 
   // Multiplies all counts by `left`, from 0 to 1.

@@ -32,7 +32,7 @@ class TrafficGuidedLacam {
   };
 
   // `orders` and `seed` are as for LacamWithRestarts. `mean_cost`: mean individual cost of the
-  // agents. `problem` and `tuning` must outlive this.
+  // agents. `problem` and `tuning` must outlive this object.
   TrafficGuidedLacam(const Problem& problem, std::vector<Sequence> orders, double mean_cost,
                      std::uint64_t seed, const Tuning& tuning);
 

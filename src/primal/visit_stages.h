@@ -26,8 +26,8 @@ class VisitStages {
  public:
   using Stage = std::int32_t;
 
-  // `problem` and the fields of `guide` must outlive this. `guide`: nullptr for distances in steps.
-  // Throws std::invalid_argument if `order` is not a complete sequence.
+  // `problem` and the fields of `guide` must outlive this object. `guide`: nullptr for distances in
+  // steps. Throws std::invalid_argument if `order` is not a complete sequence.
   VisitStages(const Problem& problem, AgentIndex agent, Sequence order,
               const LegFields* guide = nullptr);
 

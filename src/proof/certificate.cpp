@@ -121,7 +121,7 @@ class LemmaCollector : public ForestVisitor {
 // Writes the needed lemmas of a proof log, and numbers them.
 class LemmaWriter : public ProofLog {
  public:
-  // All arguments must outlive this.
+  // All arguments must outlive this object.
   LemmaWriter(const Instance& instance, const std::unordered_set<ProofKey>& needed,
               CertificateOutput& output)
       : instance_(instance), needed_(needed), output_(output) {}

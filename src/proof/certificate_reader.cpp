@@ -127,7 +127,7 @@ class Reader {
     return static_cast<LemmaNumber>(number("the number of an earlier lemma", lemmas_));
   }
   std::int32_t time() { return small("a time", kTimes); }
-  // Takes the begin and the end of a time interval.
+  // Takes the start and the end of a time interval.
   void span(CertificateConstraint& constraint) {
     constraint.begin = time();
     constraint.end = take_inf() ? CertificateConstraint::kForEver : small("a time or inf", kTimes);

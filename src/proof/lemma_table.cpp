@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Selects the lemmas that a leaf needs.
 //
-// Lemmas alone prove a leaf if the sum of costs is at least its bound for all costs of agents that
-// are at least 0 each and satisfy the lemmas. This is a covering problem as in proof_records.h, but
-// with the lower bound 0 on each agent. Here only the bounds of lemmas without a common agent are
-// added, because every checker finds that sum.
+// Lemmas alone prove a leaf if the sum of the agents' costs is at least the leaf's bound for all
+// non-negative costs that satisfy the lemmas. This is a covering problem (search/covering.h). Here
+// only the bounds of lemmas without a common agent are added, because every checker finds that sum.
 //
 // If a leaf also needs the costs of agents, it does not need a lemma that another named lemma
 // implies. A lemma implies another one if its agents are a subset and its bound is no less: the

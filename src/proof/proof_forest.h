@@ -25,7 +25,7 @@ class ForestVisitor {
 
 class ProofForest {
  public:
-  // `written` must outlive this. One thread at a time.
+  // `written` must outlive this object. One thread at a time.
   explicit ProofForest(ProofRecords& written) : written_(written), tree_(written.entries) {}
 
   // Returns the bound that the trees prove, at most `claimed`. Call it before visit().

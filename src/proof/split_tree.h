@@ -13,8 +13,8 @@ namespace grove::detail {
 
 class SplitTree {
  public:
-  // `entries` must outlive this. value() stores in them the bounds that the nodes prove. One thread
-  // at a time.
+  // `entries` must outlive this object. value() stores in them the bounds that the nodes prove. One
+  // thread at a time.
   explicit SplitTree(ProofEntries& entries) : entries_(entries) {}
 
   // Returns the bound that the tree at `root` proves, where `cost` is the sum of the individual

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Branching: Algorithm 1 of the paper, lines 13-22. Chooses a conflict of the node, creates one
 // child for each way to resolve it, and re-plans under the *child's* constraints. (The paper's line
-// 17 plans under the parent's constraints, which would repeat the conflict for ever.)
+// 17 plans under the parent's constraints, which would repeat the conflict forever.)
 //
 // *Choice of the conflict.* Strong branching, as in integer programming (Applegate et al. 1995; for
 // CBS the idea behind cardinal conflicts, Boyarski et al. 2015). For every split that the node's

@@ -3,7 +3,7 @@
 
 namespace grove::detail {
 
-// The label limit is needed because cells that are forbidden for ever act as time windows. With
+// The label limit is needed because cells that are forbidden forever act as time windows. With
 // these the low-level problem is NP-hard, so a single call could use up all the time.
 ChildCosts::Outcome ChildCosts::increase(NodeView& view, const AgentConstraint& constraint,
                                          Cost slack, const Limits& limits, Cost& increase) {

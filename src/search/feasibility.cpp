@@ -8,7 +8,7 @@
 // undone, this follows from *Reach*. If the condition holds for all pairs, an agent that ignores
 // the others can visit all places, in any order that is compatible with reachability.)
 //
-// *Rest.* Agents rest on different cells for ever: a CTS agent on its destination, an MG agent on
+// *Rest.* Agents rest on different cells forever: a CTS agent on its destination, an MG agent on
 // one of its own tasks. (An idle agent can rest anywhere, and a place for it is always left.) If
 // the bipartite graph of agents and resting cells has no matching that covers every agent, there is
 // no plan (Hall 1935). The matching is computed with augmenting paths.

@@ -86,8 +86,8 @@ NodePtr Frontier::take_locked(std::map<Cost, std::vector<Open>>::iterator best) 
   return node;
 }
 
-// Takes from the second half of each heap, which consists of leaves. Each leaf is no better than
-// all its ancestors, so this approximates the worse half.
+// Takes from the second half of each heap, which consists of leaves. A leaf is no better than any
+// of its ancestors in the heap, so this approximates the worse half.
 std::vector<NodePtr> Frontier::take_for_transfer(std::size_t count, bool keeps_next) {
   const std::lock_guard lock(mutex_);
   std::vector<NodePtr> spare;

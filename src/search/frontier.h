@@ -73,15 +73,16 @@ class Frontier {
   void abandon();
 
   // The least bound of all live nodes (open or taken) and evicted nodes; kInfiniteCost if there is
-  // none.
+  // none. After restart(), each node counts with at least the bound proven before.
   Cost bound() const;
   std::size_t open() const;
-  // The number of open nodes for each of the `max_count` least bounds.
+  // The number of open nodes with one bound.
   struct Level {
     Cost bound = 0;
     std::int64_t open = 0;
     friend bool operator==(const Level&, const Level&) = default;
   };
+  // The `max_count` least bounds of open nodes, ascending.
   std::vector<Level> levels(std::size_t max_count) const;
   // The number of live nodes: open or taken.
   std::size_t live() const;

@@ -41,7 +41,7 @@
 // node count as well if they conflicted at another node with the same subproblems.
 //
 // *Groups.* Even if no pair must cost more, three or more agents may block each other whatever they
-// do. If they do not, splits can still move one conflict from pair to pair for ever. The same
+// do. If they do not, splits can still move one conflict from pair to pair forever. The same
 // search on a connected group of such agents decides which of these is the case, and its result is
 // cached in the same way.
 //

@@ -25,7 +25,7 @@ struct JointSequence {
 class KBestJointSequences {
  public:
   // `agents`: one list per agent, by AgentIndex. `limits`, and all objects to which `agents` refer,
-  // must outlive this.
+  // must outlive this object.
   KBestJointSequences(std::vector<KBestSequences> agents, const Limits& limits);
   ~KBestJointSequences();
   KBestJointSequences(KBestJointSequences&&) noexcept;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // grove-fuzz-execution: executes random plans with random disturbances. Robots must not collide,
-// and no robot may wait for ever. For comparison, it applies the same disturbances to robots that
+// and no robot may wait forever. For comparison, it applies the same disturbances to robots that
 // follow the times of the plan.
 #include <fmt/format.h>
 

@@ -240,8 +240,8 @@ TEST(Check, AcceptsEndOfMgAgentOnlyOnItsLastTask) {
   EXPECT_EQ(violations[0].json_pointer, "/agents/0/sequence/1");
 }
 
-// Returns the collision of two agents on a 4 x 2 map without tasks. Both paths start and end where
-// they should.
+// Returns the violation of a plan for two agents on a 4 x 2 map without tasks; "" if it is valid.
+// The agents' starts and destinations are the ends of the paths.
 std::string collision(const Path& first, const Path& second) {
   InstanceBuilder builder(Grid(4, 2, std::vector<bool>(8, true)));
   const Grid grid(4, 2, std::vector<bool>(8, true));

@@ -12,14 +12,14 @@
 
 namespace grove::detail::oracle {
 
-// State of an agent: its pose, the task in execution, the visited tasks, and whether it rests for
-// ever. Derived only from the instance.
+// State of an agent: its pose, the task in execution, the visited tasks, and whether it has come to
+// rest for good. Computed from the instance, without the search code of the library.
 struct AgentState {
   Pose pose;
   int work = -1;              // task in execution, as index in Agent::tasks; -1: none
   Time done = 0;              // steps of `work` completed
   std::uint64_t visited = 0;  // bit i: Agent::tasks[i] is visited
-  bool resting = false;       // rests for ever
+  bool resting = false;       // rests forever
 
   auto key() const {
     return std::tuple(pose.place, pose.heading, pose.to, pose.steps, work, done, visited, resting);
@@ -28,7 +28,7 @@ struct AgentState {
 };
 
 // The reachable states of one agent, numbered from 0. From a state in which the agent may rest, one
-// of its moves is to rest there for ever at no further cost.
+// of its moves is to rest there forever at no further cost.
 class AgentStates {
  public:
   using State = std::int32_t;

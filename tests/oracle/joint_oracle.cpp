@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A* over joint states. A joint state holds, for every agent, its pose, its task in execution, the
-// tasks that it has visited and whether it rests for ever (agent_states.h). A step moves all agents
+// tasks that it has visited and whether it rests forever (agent_states.h). A step moves all agents
 // at the same time and costs the number of agents that are not at rest. The cost of a path is
 // therefore the sum of the agents' finish times: an agent pays for every step, waits included,
-// until it rests for ever. Resting is a decision. An agent that may rest can also continue to pay
+// until it rests forever. Resting is a decision. An agent that may rest can also continue to pay
 // and leave again.
 //
 // *Soundness.* The heuristic is the sum of the agents' exact individual costs-to-go. A step either

@@ -127,7 +127,7 @@ Walker at_start(const Instance& instance, AgentIndex agent) {
   return walker;
 }
 
-// Returns the number of steps until `walker` may rest while `wall` is blocked for ever, or nullopt
+// Returns the number of steps until `walker` may rest while `wall` is blocked forever, or nullopt
 // if it can never rest.
 std::optional<Cost> steps_to_rest(const Instance& instance, const Steps& map, AgentIndex agent,
                                   const Walker& walker, Place wall) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests single-agent search with a fixed order of goals, including cases in which some low-level
-// search was wrong.
+// Tests single-agent search with a fixed order of goals, with regression cases that an earlier
+// low-level search got wrong.
 #include "planning/fixed_order_sipp.h"
 
 #include <gtest/gtest.h>

@@ -323,7 +323,7 @@ TEST(FreeOrderSipp, RejectsInvalidPrefix) {
   }
 }
 
-// Without a destination the agent rests on the only stop that is not barred for ever.
+// Without a destination the agent rests on the only stop that is not barred forever.
 TEST(FreeOrderSipp, CellBarredForeverCannotBeTheRest) {
   const Grid grid = grid_of({"......"});
   FreeProblem problem = corridor(grid, {1, 3}, std::nullopt);

@@ -50,7 +50,7 @@ struct FreeAgent {
 // without one, on the stop that it counted last.
 std::optional<Time> free_reference_cost(const FreeProblem& problem);
 
-// Returns the reason why `path` does not realize this sequence of all stops, or "" if it does.
+// Explains why `path` does not realize this sequence of all stops, or "" if it does.
 std::string path_error(const FreeProblem& problem, const Sequence& sequence, const Path& path);
 
 // Returns all sequences of n stops in the class.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compares the costs of legs while cells are barred for ever with the costs of paths, for each
+// Compares the costs of legs while cells are barred forever with the costs of paths, for each
 // order.
 #include "planning/late_costs.h"
 

@@ -26,7 +26,7 @@ struct Problem {
 // prunes nothing.
 std::optional<Time> reference_cost(const Problem& problem);
 
-// Returns the reason why `path` does not solve the problem, or "" if it does.
+// Explains why `path` does not solve the problem, or "" if it does.
 std::string path_error(const Problem& problem, const Path& path);
 
 // The paths of other agents, without an index of their positions.

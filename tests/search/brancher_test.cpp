@@ -119,8 +119,8 @@ TEST(Brancher, BypassesAConflictInsteadOfSplitting) {
   EXPECT_EQ(without.splits(ConstraintKind::kVertexOrEdge), 1);
 }
 
-// A split creates children of the node with its current paths, so the children keep all paths that
-// the view showed.
+// The children inherit the paths of the view, bypasses included, because they descend from
+// node_with_current_paths().
 TEST(Brancher, KeepsBypassesInTheChildren) {
   Branched s(kOpenAndAisles, kFour, {{Technique::kStrongBranching, Technique::kBypass}, 0, true});
   ASSERT_EQ(s.branch(), Brancher::Outcome::kBranched);

@@ -42,7 +42,7 @@ def anchors(document):
 
 
 def dead(link, page, root):
-    """Returns the reason why a link in `page` has no target, or None. Links to other hosts are not checked."""
+    """Explains why a link in `page` has no target, or None. Links to other hosts are not checked."""
     if re.match(r"[a-z][a-z0-9+.-]*:", link):
         return None
     target, _, name = link.partition("#")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Simulated clocks: tests that use them do not depend on the machine's clock.
+// Clocks and limits for tests. Tests that use the simulated clocks do not depend on the machine's
+// clock; HangLimit uses the machine's clock.
 #pragma once
 
 #include <atomic>

@@ -9,7 +9,7 @@
 
 namespace grove::detail::testing {
 
-// Returns whether `path`, including its rest for ever, satisfies `constraint`. Throws
+// Returns whether `path`, including its rest forever, satisfies `constraint`. Throws
 // std::invalid_argument if it is a constraint on the sequence.
 bool satisfies(const World& grid, const Path& path, const Constraint& constraint);
 

@@ -109,7 +109,7 @@ Solution in_terms_of(const Instance& instance, Solution solution) {
   return solution;
 }
 
-// Returns the reason why the run failed; "" if it exited with code 0 within its time limit.
+// Explains why the run failed; "" if it exited with code 0 within its time limit.
 std::string failure_text(const ChildEnd& end, double time_limit_s, const fs::path& output_file) {
   if (end.wall_s > time_limit_s) return kTimeLimit;
   if (end.kind == ChildEnd::Kind::kSignalled)

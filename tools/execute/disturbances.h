@@ -35,7 +35,7 @@ class Disturbances {
   struct Stop {
     AgentIndex agent = -1;
     Time from = 0;
-    Time steps = 0;  // kNever: the robot stops for ever
+    Time steps = 0;  // kNever: the robot stops forever
   };
 
   void read_stops(const DisturbanceArguments& arguments, const Instance& instance);

@@ -18,7 +18,7 @@ namespace grove::detail {
 void collective(const MpiSession& session, const std::function<void()>& what);
 
 // Lets all ranks agree whether their command lines are valid. Command lines and programs can differ
-// between ranks, and if only one rank ended, the others would wait for it for ever.
+// between ranks, and if only one rank ended, the others would wait for it forever.
 class CommandLines {
  public:
   // `session` must outlive this object.

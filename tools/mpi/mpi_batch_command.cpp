@@ -142,7 +142,7 @@ class BatchRun {
            .idle = [] { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }},
           master_ ? &*master_ : nullptr);
       client.run();
-    } catch (const InputError& error) {  // abort, because the other ranks would wait for ever
+    } catch (const InputError& error) {  // abort, because the other ranks would wait forever
       print_error(*app_.get_parent(), error.what());
       session_.abort(kExitBadInput);
     }
@@ -254,7 +254,7 @@ class BatchRun {
       if (farm_->ranks() == 1) throw;  // the caller writes a row with the error
       print_error(*app_.get_parent(),
                   fmt::format("internal failure of rank {}: {}", session_.rank(), error.what()));
-      session_.abort(kExitInternalFailure);  // the other ranks would wait for ever
+      session_.abort(kExitInternalFailure);  // the other ranks would wait forever
     }
   }
 

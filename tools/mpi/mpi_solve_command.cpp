@@ -157,7 +157,7 @@ class Run {
   }
 
   // Searches with all ranks. Aborts the job on an error, because it may occur on this rank only,
-  // and the other ranks would wait for ever. For example, rank 0 may find that the nodes in a
+  // and the other ranks would wait forever. For example, rank 0 may find that the nodes in a
   // checkpoint are damaged.
   std::optional<Solution> solve_by_all(const Problem& problem, RunObserver& observer) {
     try {

@@ -101,7 +101,7 @@ class Replanning {
     return *std::move(driven.plan);
   }
 
-  // Refuses a time after the end of the plan, because all robots then rest for ever.
+  // Refuses a time after the end of the plan, because all robots then rest forever.
   void require_time_of_plan() const {
     const Time end = std::ranges::max(plan_.agents, {}, &AgentPlan::cost).cost;
     if (a_.at > end)

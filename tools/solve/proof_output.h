@@ -28,14 +28,14 @@ class ProofOutput {
 
   // The log for SolveOptions; nullptr without --proof.
   ProofLog* log() { return recorder_.get(); }
-  // Flushes this rank's part. Returns "", or the reason why the part is incomplete.
+  // Flushes this rank's part. Returns "", or why the part is incomplete.
   std::string close();
   // Makes the certificate from the parts and records in the solution's statistics what it proves.
   // Call it on one rank after all ranks have called close(). `failure`: the result of close() on a
   // rank that failed, otherwise "". Errors do not throw but set failure(), because the plan must
   // still be written.
   void write(const Instance& instance, Solution& solution, const std::string& failure);
-  // The reason why no certificate was written; "" if one was, or without --proof.
+  // Why no certificate was written; "" if one was, or without --proof.
   const std::string& failure() const { return failure_; }
 
  private:

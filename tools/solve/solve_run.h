@@ -43,7 +43,7 @@ void add_run_facts(Solution& solution, const CLI::App& app, const SolveArguments
                    std::chrono::steady_clock::time_point start);
 
 // Writes the plan file and the end of the log, and reports a missing plan on standard error; see
-// plan_output.h. Returns "", or the reason why the plan file could not be written, for instance a
+// plan_output.h. Returns "", or why the plan file could not be written, for instance a
 // full disk; the log then still gets its summary.
 [[nodiscard]] std::string finish_run(const SolveArguments& arguments, const Instance& instance,
                                      const Solution& solution, LogFormat& log);

@@ -139,7 +139,7 @@ class TimeExpanded {
              !(from.entered_from == to && from.entered_at == from.cell);
     });
   }
-  // Returns whether an agent that arrived here at `time` may rest here for ever.
+  // Returns whether an agent that arrived here at `time` may rest here forever.
   bool may_end(const AgentState& m, Time time) const {
     if (std::popcount(m.counted) != static_cast<int>(problem_.stops.size())) return false;
     const Cell rest = problem_.destination ? *problem_.destination : problem_.stops[m.last];

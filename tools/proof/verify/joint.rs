@@ -70,7 +70,7 @@ impl Layers {
     }
 }
 
-/// In the key of a joint state, RESTS + place represents an agent that rests on this place for ever.
+/// In the key of a joint state, RESTS + place represents an agent that rests on this place forever.
 const RESTS: u32 = 1 << 31;
 
 pub struct Joint {

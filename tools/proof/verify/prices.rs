@@ -64,7 +64,7 @@ impl Prices {
         edge.unwrap_or(&0) + self.at.get(&(to, time)).unwrap_or(&0)
     }
 
-    /// Returns the prices that a path pays at its end, in units: for resting on `place` after `time` for ever, and for a cost of `time`.
+    /// Returns the prices that a path pays at its end, in units: for resting on `place` after `time` forever, and for a cost of `time`.
     fn end(&self, agent: u32, place: Place, time: u32) -> u64 {
         let rows = self.rests.get(&place).map_or(&[][..], Vec::as_slice);
         let rest = rows.get(rows.partition_point(|row| row.0 <= time)).map_or(0, |row| row.1);

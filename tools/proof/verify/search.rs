@@ -6,7 +6,7 @@ use crate::instance::Place;
 use crate::rules::{Constraint, Kind};
 use crate::successors::{Arrival, State, Successors};
 
-/// An arrival, and the number of its parent label in `labels`.
+/// An arrival, and the index of its parent label in `labels` (u32::MAX: none).
 type Label = (Arrival, u32);
 
 /// The places of a path in order, each with the arrival time. The first entry is the start, at time 0.

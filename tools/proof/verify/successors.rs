@@ -114,7 +114,7 @@ impl Successors<'_> {
     /// Returns a lower bound on the remaining cost from this state.
     pub fn remains(&self, state: &State) -> u32 { state.left + self.model.remains(state.done, state.pose) }
 
-    /// Returns whether the agent may rest in this state, provided that its place is free for ever.
+    /// Returns whether the agent may rest in this state, provided that its place is free forever.
     pub fn rests(&self, state: &State) -> bool { state.flags & EARLY == 0 && self.full(state) && self.remains(state) == 0 }
 
     /// Returns whether a path may end in this state at this time.

@@ -174,7 +174,10 @@ def by_cell(rows, best):
 
 
 def measures_by_line(rows, best):
-    """Returns {line: Measures}, ordered by line. `best`: see measures()."""
+    """Returns {line: Measures}, ordered by line, which is a method with its omega and time limit (lines.py).
+
+    `best`: see measures().
+    """
     groups = by_line(rows)
     common = common_instances(groups)
     return {line: measures(group, best, common) for line, group in sorted(groups.items())}

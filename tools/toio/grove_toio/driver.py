@@ -293,7 +293,7 @@ class Driver:
             self.say(f"{self.now():7.1f} s  {handle.name} {text}")
 
     def waits_of(self, handle):
-        """Returns the reason why the robot does not continue. Returns None if it has done all its actions."""
+        """Describes what the robot waits for or does. Returns None if it has completed all its actions and has no fault."""
         k = handle.done
         if (handle.name, "unfit") in self.reported:
             return f"{handle.name} {self.reported[handle.name, 'unfit'][1]}"

@@ -166,7 +166,7 @@ class Control:
                      self.releases.done[name], self.state_of(name))
 
     def reasons(self):
-        """Yields, for each vehicle that is not done, the reason why not."""
+        """Yields, for each vehicle that is not done, why not."""
         for name, vehicle in self.vehicles.items():
             if vehicle.completed:
                 continue

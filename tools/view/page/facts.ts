@@ -13,7 +13,7 @@ export enum Doing {
 export interface Span {
   doing: Doing;
   begin: number;
-  end: number; // Infinity: for ever
+  end: number; // Infinity: forever
   task: number; // the task that is executed; -1: none
 }
 
@@ -38,7 +38,7 @@ function lastChange(plan: AgentPlan): number {
   return last;
 }
 
-// Returns the activities of an agent from time 0 on, as consecutive spans. The last one is rest for ever.
+// Returns the activities of an agent from time 0 on, as consecutive spans. The last one is rest forever.
 export function spans(plan: AgentPlan): Span[] {
   const all: Span[] = [];
   const add = (doing: Doing, begin: number, end: number, task = -1) => {

@@ -11,7 +11,7 @@ export interface Constraint {
   kind: Kind;
   places: number[]; // `move` and `pass`: from, to; `stop` and `nostop`: none; others: one place
   begin: number; // equal to `end` for constraints with a single time
-  end: number; // Infinity: for ever
+  end: number; // Infinity: forever
   stop: number; // number among the agent's stops (docs/proof.md), from 0; -1: none
   task: number;
 }

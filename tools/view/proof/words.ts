@@ -96,7 +96,7 @@ export function lemmaText(model: Model, { agents, bound }: Statement): string {
   return `${who} ${agents.length === 1 ? "costs" : "together cost"} ${numberText(bound)} or more`;
 }
 
-// Returns the reason why each plan satisfies at least one of the two constraints; empty: docs/proof.md has no
+// Explains why each plan satisfies at least one of the two constraints; empty: docs/proof.md has no
 // such split. Does not check that the places of `pass` belong to a corridor.
 export function whyText(model: Model, following: boolean, step: Step): string {
   const { world, agents } = model;
@@ -130,7 +130,7 @@ export function whyText(model: Model, following: boolean, step: Step): string {
   }
 }
 
-// Returns the reason why a step without children proves its statement.
+// Explains how a step without children proves its statement.
 export function closedText(model: Model, { agents, bound }: Statement, step: Step): string {
   const much = bound === Infinity ? "there is no path" : `together ${numberText(bound)} or more`;
   switch (step.kind) {
