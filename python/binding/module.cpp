@@ -40,12 +40,12 @@ void add_errors(py::module_& module) {
   errors->base =
       error_class(module, "Error", py::make_tuple(exception),
                   "Base class of Grove's errors. Raised directly only for an internal error.");
-  errors->input = error_class(
-      module, "InputError", py::make_tuple(errors->base, value_error),
-      "An invalid file or text; the message states the position and what was expected.");
+  errors->input = error_class(module, "InputError", py::make_tuple(errors->base, value_error),
+                              "An invalid file, text, agent or task; the message states the "
+                              "position and what was expected.");
   errors->argument = error_class(
       module, "InvalidArgument", py::make_tuple(errors->base, value_error),
-      "An invalid world, instance, plan or option; field locates it, such as '/omega'.");
+      "An invalid world, plan, option or other argument; field locates it, such as '/omega'.");
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);

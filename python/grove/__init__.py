@@ -18,7 +18,7 @@
 [[0, 0], [1, 0], [2, 0], [3, 0]]
 
 Times in plans are in steps, run times in seconds. Errors are subclasses of grove.Error: InputError for files,
-InvalidArgument for values. See docs/python.md.
+agents and tasks, InvalidArgument for other values. See docs/python.md.
 """
 
 from __future__ import annotations

@@ -52,8 +52,8 @@ neither, the map is written beside OUT, as '.' and '@'. The length column of a .
 4-connected distance; Moving AI's own files have the octile distance.
 
 A map of ROS is converted to cells of --cell-size metres. A cell is blocked if a robot of
---robot-radius at its middle would touch anything that is not known to be free, or if there is no
-straight free path to any neighbour that is not blocked. Both maps have the same lower left corner.
+--robot-radius at its middle would touch anything that is not known to be free. Of two neighbouring
+cells without a straight free path between them, one is blocked, too. Both maps have the same lower left corner.
 The line "position" of the output has the options that convert plans back into the frame of the
 map.
 

@@ -23,7 +23,8 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* kSolveFooter =
     R"(The plan file has the status of the run: optimal, bounded (within omega), feasible (a plan outside
 omega), unknown (no plan when a limit was reached) or infeasible (proven). Its lower_bound is proven
-with every status. Ctrl-C and SIGTERM end the run as a time limit does, with the best plan so far.
+with every status except infeasible. Ctrl-C and SIGTERM end the run as a time limit does, with the
+best plan so far.
 
 Examples:
   grove solve benchmarks/data/first.cts.json
