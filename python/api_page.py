@@ -22,9 +22,9 @@ HEAD = """# Python: every name
 number of the edge as a fourth entry if several roads join the two vertices. `Path` is a `str` or an `os.PathLike`.
 Times in plans are in steps, run times in seconds.
 
-Errors are subclasses of `grove.Error`: `InputError` for files, `InvalidArgument` for values. Worlds, instances, plans
-and solutions are immutable: any thread may read them. Sessions: one thread at a time. Other Python threads keep running
-during a search. `grove.__version__` is a text, "0.1.0".
+Errors are subclasses of `grove.Error`: `InputError` for files, agents and tasks, `InvalidArgument` for other values.
+Worlds, instances, plans and solutions are immutable: any thread may read them. Only one thread at a time may use a
+session. Other Python threads keep running during a search. `grove.__version__` is a str, "0.1.0".
 """
 SECTIONS = {
     "Worlds and instances": ["World", "Instance", "instance_from_dict", "instance_from_arrays", "read_instance",
