@@ -200,7 +200,7 @@ TEST(RankNodes, CoverAllRootsOfARestartUntilRanksReportThem) {
   for (int rank = 0; rank < 2; ++rank) {
     EXPECT_EQ(transport.sent<message::Restart>(rank).size(), 1);
     const auto assigned = transport.sent<message::AssignNodes>(rank);
-    assigned += std::ssize(assigned);
+    total += std::ssize(assigned);
     for (std::int64_t pushed = 0; pushed < std::ssize(assigned); ++pushed) {
       EXPECT_EQ(nodes.bound(), roots.front()->bound());
       EXPECT_TRUE(nodes.any());
@@ -210,7 +210,7 @@ TEST(RankNodes, CoverAllRootsOfARestartUntilRanksReportThem) {
       nodes.update(rank, status);
     }
   }
-  EXPECT_EQ(assigned, 3);
+  EXPECT_EQ(total, 3);
   EXPECT_EQ(nodes.bound(), kInfiniteCost);
   EXPECT_FALSE(nodes.any());
 }
