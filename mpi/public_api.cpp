@@ -88,7 +88,7 @@ std::optional<Solution> solve(const Instance& instance, const Options& options,
   std::optional<detail::Solution> answer;
   detail::Solution to_public =
       run([&](const detail::Limits& limits, detail::RunObserver& observer) -> detail::Solution {
-        return translated([&] {
+        return with_public_exceptions([&] {
           detail::RunObserver silent;
           detail::RunObserver& listener = rank == 0 ? observer : silent;
           const detail::SharedProblem shared(inner, limits, search.threads, memory);

@@ -65,11 +65,12 @@ Solution public_solution(const detail::Instance& instance, const detail::Solutio
 // Converts Options::omega. Throws InvalidArgument if it is neither from 0 to 1e6 nor infinite.
 detail::Omega omega_of(double omega);
 
-// Returns the result of `act`. Translates exceptions of `act` into those of the public API.
-template <class Act>
-auto translated(Act&& act) {
+// Returns the result of `function`. Translates exceptions of `function` into those of the public
+// API.
+template <class Function>
+auto with_public_exceptions(Function&& function) {
   try {
-    return act();
+    return function();
   } catch (const Error&) {
     throw;
   } catch (const detail::InputError& error) {

@@ -55,7 +55,7 @@ detail::Instance built(const World& world, const std::vector<Agent>& agents,
     const detail::Place place = place_of(map, tasks[i].place, field + "/place");
     added(field, [&] { builder.add_task(tasks[i].id, place, tasks[i].agents, tasks[i].duration); });
   }
-  return translated([&] { return std::move(builder).build(); });
+  return with_public_exceptions([&] { return std::move(builder).build(); });
 }
 
 Agent public_agent(const detail::Instance& instance, detail::AgentIndex index) {
@@ -158,29 +158,30 @@ Pose public_pose(const detail::Map& map, detail::Motion motion, const detail::Po
 }
 
 Instance read_instance(const std::filesystem::path& path, std::vector<std::string>* warnings) {
-  return translated([&] { return loaded(detail::read_instance(path), warnings); });
+  return with_public_exceptions([&] { return loaded(detail::read_instance(path), warnings); });
 }
 
 Instance read_instance(const std::filesystem::path& path, const Trust& trust,
                        std::vector<std::string>* warnings) {
-  return translated([&] { return loaded(detail::read_instance(path, rules_of(trust)), warnings); });
+  return with_public_exceptions(
+      [&] { return loaded(detail::read_instance(path, rules_of(trust)), warnings); });
 }
 
 Instance parse_instance(std::string_view text, const std::filesystem::path& folder,
                         const Trust& trust, std::vector<std::string>* warnings) {
-  return translated([&] {
+  return with_public_exceptions([&] {
     return loaded(detail::parse_instance(text, "the instance", folder, rules_of(trust)), warnings);
   });
 }
 
 Instance parse_instance(std::string_view text, const std::filesystem::path& folder,
                         std::vector<std::string>* warnings) {
-  return translated(
+  return with_public_exceptions(
       [&] { return loaded(detail::parse_instance(text, "the instance", folder), warnings); });
 }
 
 Instance parse_instance(std::string_view text, const World& world, Rules rules) {
-  return translated([&] {
+  return with_public_exceptions([&] {
     detail::InstanceBuilder builder(Access::map(world));
     if (!rules.following) builder.forbid_following();
     return Access::to_public(detail::parse_instance_on(std::move(builder), text, "the instance"));
@@ -188,17 +189,18 @@ Instance parse_instance(std::string_view text, const World& world, Rules rules) 
 }
 
 std::string instance_text(const Instance& instance) {
-  return translated([&] { return detail::instance_text(Access::instance(instance), ""); });
+  return with_public_exceptions(
+      [&] { return detail::instance_text(Access::instance(instance), ""); });
 }
 
 Instance read_scenario(const std::filesystem::path& scenario, const std::filesystem::path& map,
                        int agents) {
-  return translated(
+  return with_public_exceptions(
       [&] { return loaded(detail::read_scenario_instance(scenario, map, agents), nullptr); });
 }
 
 void write_instance(const std::filesystem::path& path, const Instance& instance) {
-  translated([&] {
+  with_public_exceptions([&] {
     const detail::Instance& inner = Access::instance(instance);
     const std::string name = path.filename().string();
     const std::string stem = name.substr(0, name.find('.'));

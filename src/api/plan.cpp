@@ -148,7 +148,7 @@ std::vector<Violation> check(const Instance& instance, const Plan& plan, std::si
 
 std::vector<Violation> check(const Instance& instance, const Solution& solution,
                              std::size_t limit) {
-  return translated([&] {
+  return with_public_exceptions([&] {
     const detail::Instance& inner = Access::instance(instance);
     return to_public(detail::check(inner, solution_of(inner, solution), limit));
   });
@@ -169,19 +169,19 @@ Plan plan_from_paths(const Instance& instance, const std::vector<std::vector<Pla
       own.push_back(place_of(inner.map(), place,
                              fmt::format("/agents/{}/path/{}", made.size() - 1, own.size())));
   }
-  return translated(
+  return with_public_exceptions(
       [&] { return public_plan(inner, detail::plan_of_paths(inner, std::move(made))); });
 }
 
 Solution read_plan(const std::filesystem::path& path, const Instance& instance) {
-  return translated([&] {
+  return with_public_exceptions([&] {
     const detail::Instance& inner = Access::instance(instance);
     return public_solution(inner, detail::read_solution(path, inner));
   });
 }
 
 Solution parse_plan(std::string_view text, const Instance& instance) {
-  return translated([&] {
+  return with_public_exceptions([&] {
     const detail::Instance& inner = Access::instance(instance);
     return public_solution(inner, detail::parse_solution(text, "the plan", inner));
   });
@@ -189,11 +189,11 @@ Solution parse_plan(std::string_view text, const Instance& instance) {
 
 namespace {
 
-// Like translated(), but if the checker refuses a plan, throws InvalidArgument, because the plan is
-// the caller's.
+// Like with_public_exceptions(), but if the checker refuses a plan, throws InvalidArgument, because
+// the plan is the caller's.
 template <class Act>
 auto refusing_invalid_plans(Act&& act) {
-  return translated([&] {
+  return with_public_exceptions([&] {
     try {
       return act();
     } catch (const detail::InvalidPlan& error) {

@@ -61,7 +61,7 @@ void Session::advance(int steps, const std::vector<Delay>& late) {
     delays.push_back({agent_of(session.instance(), late[i].agent, field), late[i].steps});
     if (late[i].steps < 0) throw InvalidArgument(field, "expected at least 0 steps");
   }
-  translated([&] {
+  with_public_exceptions([&] {
     try {
       session.advance(steps, delays);
     } catch (const detail::InfeasibleDelay& error) {
@@ -82,7 +82,7 @@ void Session::change(const Change& change) {
   }
   for (std::size_t i = 0; i < change.blocked.size(); ++i)
     made.blocked.push_back(place_of(map, change.blocked[i], fmt::format("/blocked/{}", i)));
-  translated([&] { session.change(made); });
+  with_public_exceptions([&] { session.change(made); });
 }
 
 Options Session::default_options() {
@@ -109,7 +109,7 @@ Solution Session::replan(const Options& options, int commit) {
     }
   };
   const detail::Solution solution = run([&](const auto& limits, auto& observer) {
-    return translated([&] { return search_on(limits, observer); });
+    return with_public_exceptions([&] { return search_on(limits, observer); });
   });
   return public_solution(session.instance(), solution);
 }

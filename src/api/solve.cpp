@@ -121,7 +121,7 @@ Solution solve(const Instance& instance, const Options& options) {
   Run run(inner, options);
   return public_solution(
       inner, run([&](const detail::Limits& limits, detail::RunObserver& observer) {
-        return translated([&] {
+        return with_public_exceptions([&] {
           return detail::solve_by(method_of(options), false, inner, search, limits, &observer);
         });
       }));

@@ -122,7 +122,7 @@ World World::roadmap(std::vector<RoadmapVertex> vertices, std::vector<RoadmapEdg
 }
 
 World World::read(const std::filesystem::path& path) {
-  return translated([&] {
+  return with_public_exceptions([&] {
     if (path.extension() == ".json")
       return Access::world(std::make_shared<const detail::Map>(detail::read_roadmap(path)));
     return Access::world(std::make_shared<const detail::Map>(detail::read_map(path)));

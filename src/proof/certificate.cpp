@@ -204,7 +204,8 @@ class CertificateBuilder {
 
   Certificate write(Cost claimed, const std::filesystem::path& file) {
     const Cost of_trees = forest_.value(claimed);
-    made_.bound = std::min(claimed, std::max({of_trees, written_.priced, written_.joined}));
+    made_.bound =
+        std::min(claimed, std::max({of_trees, written_.pricing_bound, written_.joint_bound}));
     const bool by_trees = of_trees >= made_.bound && !is_evidently_infeasible(claimed);
     LemmaCollector choosing(made_.bound);
     if (by_trees) forest_.visit(made_.bound, choosing);
@@ -218,7 +219,7 @@ class CertificateBuilder {
     TreeWriter writing(instance_, lemmas, output, made_);
     if (by_trees)
       forest_.visit(made_.bound, writing);
-    else if (written_.priced >= made_.bound)
+    else if (written_.pricing_bound >= made_.bound)
       write_prices(output);
     else
       write_joint(output);

@@ -140,7 +140,7 @@ class Reader {
     return {whose, time()};
   }
   // Takes two agents, each followed by a time.
-  void pair() {
+  void take_finish_pair() {
     agent();
     time();
     agent();
@@ -308,7 +308,7 @@ class Reader {
           time();
           break;
         case 2:
-          pair();
+          take_finish_pair();
           break;
         default:
           end_line();

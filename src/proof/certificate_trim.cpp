@@ -96,7 +96,7 @@ class DecidingPass : public KeptParts {
     Needs first;  // needs of its first side
   };
 
-  Keep opened(std::size_t number, const Fork& fork) override {
+  Keep begin_split(std::size_t number, const Fork& fork) override {
     const Keep keep = active_.has_side(fork.sides[0])   ? Keep::kFirst
                       : active_.has_side(fork.sides[1]) ? Keep::kSecond
                                                         : Keep::kBoth;
@@ -107,7 +107,7 @@ class DecidingPass : public KeptParts {
   }
   void begin_side(int which) override { active_.assume(levels_.back().fork.sides[which]); }
 
-  Keep first_done(std::size_t number) override {
+  Keep end_first_side(std::size_t number) override {
     Level& level = levels_.back();
     if (keeps[number] != Keep::kSecond) active_.undo(level.fork.sides[0]);
     if (keeps[number] != Keep::kBoth) return keeps[number];
@@ -115,7 +115,7 @@ class DecidingPass : public KeptParts {
     level.first = std::move(needs_);
     return Keep::kBoth;
   }
-  void second_done(std::size_t number) override {
+  void end_split(std::size_t number) override {
     const Level& level = levels_.back();
     if (keeps[number] != Keep::kFirst) active_.undo(level.fork.sides[1]);
     if (keeps[number] == Keep::kBoth) {
@@ -192,11 +192,11 @@ class LaterPass : public KeptParts {
   const LemmaTable& lemmas_;
 
  private:
-  Keep opened(std::size_t number, const Fork& fork) final {
+  Keep begin_split(std::size_t number, const Fork& fork) final {
     if (keeps_.at(number) == Keep::kBoth) stays(fork);
     return keeps_[number];
   }
-  Keep first_done(std::size_t number) final { return keeps_[number]; }
+  Keep end_first_side(std::size_t number) final { return keeps_[number]; }
   void kept_leaf(std::span<const LemmaNumber> all) final {
     leaf_of(lemmas_.leaf(all, bound_).names);
   }

@@ -42,7 +42,7 @@ void KeptParts::open(const Fork& fork) {
     ++skipped_depth_;
     return;
   }
-  levels_.push_back({number, opened(number, fork), false});
+  levels_.push_back({number, begin_split(number, fork), false});
   begin(0);
 }
 
@@ -60,10 +60,10 @@ void KeptParts::close() {
     Level& level = levels_.back();
     if (!level.has_first) {
       level.has_first = true;
-      level.keep = first_done(level.number);
+      level.keep = end_first_side(level.number);
       return begin(1);
     }
-    second_done(level.number);
+    end_split(level.number);
     levels_.pop_back();
   }
 }

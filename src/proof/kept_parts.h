@@ -36,12 +36,12 @@ class KeptParts : public CertificateVisitor {
  protected:
   // Called at each split that is not skipped. `number` numbers all splits of the certificate,
   // including skipped ones. Returns the part to keep; kSecond skips the first side.
-  virtual Keep opened(std::size_t number, const Fork& fork) = 0;
+  virtual Keep begin_split(std::size_t number, const Fork& fork) = 0;
   virtual void begin_side(int /*which*/) {}
   // Called after the first side, even if it was skipped. Returns the part to keep; kFirst skips the
   // second side.
-  virtual Keep first_done(std::size_t number) = 0;
-  virtual void second_done(std::size_t /*number*/) {}
+  virtual Keep end_first_side(std::size_t number) = 0;
+  virtual void end_split(std::size_t /*number*/) {}
   virtual void kept_leaf(std::span<const LemmaNumber> lemmas) = 0;
   virtual void kept_joint() {}
   virtual void kept_prices() {}

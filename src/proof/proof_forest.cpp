@@ -7,7 +7,7 @@ namespace grove::detail {
 
 Cost ProofForest::value(Cost claimed) {
   Cost value = claimed;
-  for (const ProofTree& tree : written_.trees)
+  for (const ProofTree& tree : records_.trees)
     value = std::min(value, tree_.value(tree.root, tree.cost));
   return value;
 }
@@ -15,7 +15,7 @@ Cost ProofForest::value(Cost claimed) {
 void ProofForest::visit(Cost bound, ForestVisitor& visitor) {
   bound_ = bound;
   Trees all;
-  for (const ProofTree& tree : written_.trees) all.push_back(&tree);
+  for (const ProofTree& tree : records_.trees) all.push_back(&tree);
   visit(all, 0, 0, visitor);
 }
 

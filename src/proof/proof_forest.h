@@ -25,8 +25,8 @@ class ForestVisitor {
 
 class ProofForest {
  public:
-  // `written` must outlive this object. One thread at a time.
-  explicit ProofForest(ProofRecords& written) : written_(written), tree_(written.entries) {}
+  // `records` must outlive this object. One thread at a time.
+  explicit ProofForest(ProofRecords& records) : records_(records), tree_(records.entries) {}
 
   // Returns the bound that the trees prove, at most `claimed`. Call it before visit().
   Cost value(Cost claimed);
@@ -38,7 +38,7 @@ class ProofForest {
   void visit(const Trees& trees, std::size_t agent, std::size_t number, ForestVisitor& visitor);
   void visit(const ProofTree& tree, ForestVisitor& visitor);
 
-  ProofRecords& written_;
+  ProofRecords& records_;
   SplitTree tree_;
   Cost bound_ = 0;
 };

@@ -30,13 +30,13 @@ void ProofRecords::lemma(const ProofLemma& lemma, ProofKey /*root*/,
 }
 
 void ProofRecords::prices(Cost bound, std::span<const RowMultiplier> rows) {
-  if (bound <= priced) return;
-  priced = bound;
+  if (bound <= pricing_bound) return;
+  pricing_bound = bound;
   priced_rows.assign(rows.begin(), rows.end());
 }
 
 void ProofRecords::joint(Cost bound) {
-  joined = std::max(joined, bound);
+  joint_bound = std::max(joint_bound, bound);
 }
 
 void ProofRecords::drop_records_without_lemmas() {

@@ -32,9 +32,9 @@ class ProofRecords : public ProofLog {
   ProofEntries entries;
   std::unordered_set<ProofKey> lemmas;
   std::vector<ProofTree> trees;
-  Cost priced = 0;  // bound proven by `prices`
+  Cost pricing_bound = 0;  // bound proven by `prices`
   std::vector<RowMultiplier> priced_rows;
-  Cost joined = 0;  // bound proven by joint search
+  Cost joint_bound = 0;  // bound proven by joint search
 
   void tree(const ProofTree& tree) override;
   void split(const ProofSplit& split) override;
