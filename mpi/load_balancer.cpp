@@ -41,11 +41,11 @@ LoadBalancer::LoadBalancer(const std::vector<std::vector<int>>& children, const 
 
 void LoadBalancer::update(int child, const message::Status& status) {
   View& at = view(child);
-  for (const Request& request : at.wishes) wishes_.erase(request);
-  at.wishes.clear();
+  for (const Request& request : at.requests) requests_.erase(request);
+  at.requests.clear();
   for (const message::WorkRequest& want : status.work_requests) {
-    const Request& request = at.wishes.emplace_back(!want.idle, -want.best, want.rank);
-    wishes_[request] = child;
+    const Request& request = at.requests.emplace_back(!want.idle, -want.best, want.rank);
+    requests_[request] = child;
   }
   offer(child, status.surplus);
 }
@@ -76,7 +76,7 @@ void LoadBalancer::take(int child, std::int64_t nodes) {
 // The requests are sorted by urgency, so if no transfer is worthwhile for a request, none is for
 // the requests after it.
 std::optional<LoadBalancer::Transfer> LoadBalancer::next() {
-  for (const auto& [request, child] : wishes_) {
+  for (const auto& [request, child] : requests_) {
     const auto& [busy, minus_best, to] = request;
     if (awaiting_.contains(to)) continue;
     auto best = offers_.begin();
@@ -121,7 +121,7 @@ std::vector<message::Surplus> LoadBalancer::surplus() const {
 
 std::vector<message::WorkRequest> LoadBalancer::work_requests() const {
   std::vector<message::WorkRequest> work_requests;
-  for (const auto& [request, child] : wishes_) {
+  for (const auto& [request, child] : requests_) {
     const auto& [busy, minus_best, rank] = request;
     if (work_requests.size() == kMaxForwardedRequests) break;
     if (!awaiting_.contains(rank)) work_requests.push_back({rank, !busy, -minus_best});

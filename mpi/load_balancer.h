@@ -52,7 +52,7 @@ class LoadBalancer {
 
   struct View {
     std::vector<message::Surplus> surplus;  // ascending in bound, none empty
-    std::vector<Request> wishes;
+    std::vector<Request> requests;
   };
 
   View& view(int child) { return children_[static_cast<std::size_t>(child)]; }
@@ -62,8 +62,8 @@ class LoadBalancer {
   const Tuning tuning_;
   std::vector<View> children_;
   std::set<Offer> offers_;
-  std::map<Request, int> wishes_;  // value: the child that the request came from
-  std::set<int> awaiting_;         // ranks with a transfer in transit
+  std::map<Request, int> requests_;  // value: the child that the request came from
+  std::set<int> awaiting_;           // ranks with a transfer in transit
 };
 
 }  // namespace grove::detail

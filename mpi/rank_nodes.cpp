@@ -31,7 +31,7 @@ void RankNodes::update(int child, message::Status status) {
   for (std::int64_t i = 0; i < arrived; ++i) {
     bounds_.erase(bounds_.find(sent.front()));
     sent.pop_front();
-    --entrusted_under_way_;
+    --assignments_in_transit_;
   }
   add(latest, -1);
   add(status, 1);
@@ -55,14 +55,14 @@ Cost RankNodes::evicted_bound() const {
 
 // The nodes of a child that has not handled the last Restart are unknown, so some may be live.
 bool RankNodes::any() const {
-  return children_with_nodes_ > 0 || entrusted_under_way_ > 0 ||
+  return children_with_nodes_ > 0 || assignments_in_transit_ > 0 ||
          children_of_this_epoch_ < std::ssize(latest_);
 }
 
 message::Status RankNodes::merged() const {
   message::Status all;
   all.bound = bound();
-  all.live = children_with_nodes_ > 0 || entrusted_under_way_ > 0;
+  all.live = children_with_nodes_ > 0 || assignments_in_transit_ > 0;
   all.open = counts_.open;
   all.expanded = counts_.expanded;
   all.epoch = epoch_;
@@ -86,7 +86,7 @@ void RankNodes::assign(int child, message::AssignNodes nodes) {
   for (const NodeRecord& node : nodes.nodes) bound = std::min(bound, node.bound);
   bounds_.insert(bound);
   under_way_.at(static_cast<std::size_t>(child)).push_back(bound);
-  ++entrusted_under_way_;
+  ++assignments_in_transit_;
   children_.send(child, nodes);
 }
 
@@ -95,7 +95,7 @@ void RankNodes::send(const Tree& tree) {
     children_.broadcast(message::NewTree{tree.number, record_of(tree)});
 }
 
-int RankNodes::idlest() const {
+int RankNodes::least_loaded() const {
   std::vector<int> all(latest_.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
   return std::ranges::min(all, {}, [&](int child) {

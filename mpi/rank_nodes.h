@@ -41,7 +41,7 @@ class RankNodes : public LiveNodes {
   // Assigns nodes to a child, by default to the least loaded one. The trees of the nodes must have
   // been broadcast. The evicted bound in `nodes` counts as assigned, too.
   void assign(int child, message::AssignNodes nodes);
-  void assign(message::AssignNodes nodes) { assign(idlest(), std::move(nodes)); }
+  void assign(message::AssignNodes nodes) { assign(least_loaded(), std::move(nodes)); }
   // Broadcasts a tree, unless that was done before.
   void send(const Tree& tree);
   // Broadcasts Restart. Until a child's status has the new epoch, the nodes of the child count as
@@ -49,7 +49,7 @@ class RankNodes : public LiveNodes {
   void broadcast_restart(Cost proven);
 
  private:
-  int idlest() const;
+  int least_loaded() const;
   void add(const message::Status& status, int sign);
 
   ChildLinks& children_;
@@ -57,7 +57,7 @@ class RankNodes : public LiveNodes {
   std::vector<std::deque<Cost>> under_way_;  // by child: bounds of nodes in transit
   std::multiset<Cost> bounds_;               // bounds of all latest statuses and assigned nodes
   std::int64_t children_with_nodes_ = 0;
-  std::int64_t entrusted_under_way_ = 0;
+  std::int64_t assignments_in_transit_ = 0;
   std::int32_t epoch_ = 0;
   std::int64_t children_of_this_epoch_;
   Counts counts_;

@@ -31,17 +31,17 @@ void sleep(double seconds) {
 }
 
 // The searching threads of this rank and their outcome.
-class Searching {
+class SearchThread {
  public:
-  Searching(const Problem& problem, const SolveOptions& options, const Limits& limits, Rank& rank,
-            int number)
+  SearchThread(const Problem& problem, const SolveOptions& options, const Limits& limits,
+               Rank& rank, int number)
       : limits_(limits), shared_(rank.search()) {
     for (int i = 0; i < options.threads; ++i)
       workers_.push_back(std::make_unique<Worker>(problem, options, limits, shared_, rank.stops(),
                                                   number * options.threads + i));
     thread_ = std::jthread([this] { run(); });
   }
-  ~Searching() { limits_.cancel_workers(); }
+  ~SearchThread() { limits_.cancel_workers(); }
 
   // True once all workers have ended. Throws what a worker threw.
   bool ended() const {
@@ -75,7 +75,7 @@ class Searching {
 
 // Time since the last message. A period in which this process did not run counts at most
 // kMaxInterval_s, because messages that arrived in it have not been received yet.
-class ReceiveTimeout {
+class SilenceTimer {
  public:
   void update(double now, bool heard) {
     seconds_ = heard ? 0 : seconds_ + std::min(now - last_, kMaxInterval_s);
@@ -103,9 +103,9 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
                                           const std::function<void()>& poll) {
   const Limits::Clock::time_point begin = limits.now();
   RankProcess member(problem, options, limits, observer, transport);
-  Searching searching(problem, options, limits, member.rank(), transport.rank());
+  SearchThread searching(problem, options, limits, member.rank(), transport.rank());
   const double patience = options.tuning.unresponsive_timeout;
-  ReceiveTimeout silence;
+  SilenceTimer silence;
   bool sent_finished = false;
   double accounted = 0;
   double heard_at = 0;
