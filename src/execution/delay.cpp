@@ -105,19 +105,19 @@ void delay_work_begun_before(const Instance& instance, std::span<const Delay> la
 Plan delayed_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
                   Time time, std::span<const Delay> late) {
   require_possible(instance, time, late);
-  const EarliestTimes wishes(order, time, late);
+  const EarliestTimes earliest(order, time, late);
   ExecutionTrace trace{std::vector<Time>(order.actions().size()),
                        std::vector<Time>(order.actions().size())};
   for (std::int32_t number = 0; number < order.step_count(); ++number) {
     Time begin = 0;
     for (const ActionIndex a : order.step(number)) {
-      begin = std::max(begin, wishes.begin(a));
+      begin = std::max(begin, earliest.begin(a));
       if (order.before(a) != kNoAction) begin = std::max(begin, trace.end[order.before(a)]);
       if (const ActionIndex other = order.after(a); other != kNoAction)
         begin = std::max(begin, instance.may_follow() ? trace.begin[other] : trace.end[other]);
     }
     for (const ActionIndex a : order.step(number)) {
-      if (wishes.is_certain(a) && begin > wishes.begin(a)) refuse(instance, order, a, time);
+      if (earliest.is_certain(a) && begin > earliest.begin(a)) refuse(instance, order, a, time);
       trace.begin[a] = begin;
       trace.end[a] = begin + order.actions()[a].steps;
     }

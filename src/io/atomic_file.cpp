@@ -130,8 +130,8 @@ void AtomicFile::write(std::string_view bytes) {
   if (!write_all(file_->get(), bytes)) fail_to_write(name_);
 }
 
-void AtomicFile::commit(Durability outlives) {
-  const bool is_flushed = outlives == Durability::kMachine && !temporary_.empty();
+void AtomicFile::commit(Durability durability) {
+  const bool is_flushed = durability == Durability::kMachine && !temporary_.empty();
   if (is_flushed && ::fsync(file_->get()) != 0) fail_to_write(name_);
   if (!file_->reports_no_error()) fail_to_write(name_);
   if (temporary_.empty()) return;
@@ -140,10 +140,10 @@ void AtomicFile::commit(Durability outlives) {
   if (is_flushed) flush_directory(target_.parent_path());
 }
 
-void write_file_atomically(const fs::path& path, std::string_view content, Durability outlives) {
+void write_file_atomically(const fs::path& path, std::string_view content, Durability durability) {
   AtomicFile file(path);
   file.write(content);
-  file.commit(outlives);
+  file.commit(durability);
 }
 
 bool is_special_file(const fs::path& path) {

@@ -32,7 +32,7 @@ class AtomicFile {
 
   void write(std::string_view bytes);
   // Replaces the file. Call it at most once, after the last write().
-  void commit(Durability outlives = Durability::kMachine);
+  void commit(Durability durability = Durability::kMachine);
 
  private:
   const std::filesystem::path name_;  // path as passed by the caller, for messages
@@ -46,7 +46,7 @@ class AtomicFile {
 // pipes, /dev/stdout) are written to directly. A program that may run under a file size limit must
 // ignore SIGXFSZ; otherwise this signal terminates the program when a write exceeds the limit.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content,
-                           Durability outlives = Durability::kMachine);
+                           Durability durability = Durability::kMachine);
 
 // True if write_file_atomically() writes directly to this file. This includes /dev/stdout even if
 // it is a regular file, because other processes may have the file open.

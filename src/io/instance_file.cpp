@@ -342,8 +342,8 @@ std::string instance_text(const Instance& instance, const std::string& map) {
 }
 
 void write_instance(const std::filesystem::path& path, const Instance& instance,
-                    const std::string& map, Durability outlives) {
-  write_file_atomically(path, instance_text(instance, map), outlives);
+                    const std::string& map, Durability durability) {
+  write_file_atomically(path, instance_text(instance, map), durability);
 }
 
 }  // namespace grove::detail

@@ -52,6 +52,6 @@ std::string instance_text(const Instance& instance, const std::string& map);
 // Writes `instance` as a *.cts.json file, atomically. `map` is written unchanged and should be a
 // path relative to the file. Throws InputError if the file cannot be written.
 void write_instance(const std::filesystem::path& path, const Instance& instance,
-                    const std::string& map, Durability outlives = Durability::kMachine);
+                    const std::string& map, Durability durability = Durability::kMachine);
 
 }  // namespace grove::detail

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kDeepest = 32;
+constexpr std::size_t kMaxDepth = 32;
 
 // Extracts the cause from a message such as "[json.exception.parse_error.101] parse error at line
 // 1, column 2: syntax error while parsing value - invalid literal; last read: 'x'; expected ...".
@@ -136,9 +136,9 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   }
 
   bool open(Json container) {
-    if (levels_.size() == kDeepest)
+    if (levels_.size() == kMaxDepth)
       throw InputError(file_, path(levels_.size()),
-                       fmt::format("nested too deeply; expected at most {} levels", kDeepest));
+                       fmt::format("nested too deeply; expected at most {} levels", kMaxDepth));
     levels_.push_back({place(std::move(container)), ""});
     return true;
   }

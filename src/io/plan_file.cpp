@@ -210,8 +210,8 @@ std::string solution_text(const Instance& instance, const Solution& solution) {
 }
 
 void write_solution(const std::filesystem::path& path, const Instance& instance,
-                    const Solution& solution, Durability outlives) {
-  write_file_atomically(path, solution_text(instance, solution), outlives);
+                    const Solution& solution, Durability durability) {
+  write_file_atomically(path, solution_text(instance, solution), durability);
 }
 
 Solution read_solution(const std::filesystem::path& path, const Instance& instance) {

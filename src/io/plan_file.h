@@ -19,7 +19,7 @@ std::string solution_text(const Instance& instance, const Solution& solution);
 // Writes `solution` as a plan file, atomically. Throws InputError if the file cannot be written,
 // and the exceptions of solution_text().
 void write_solution(const std::filesystem::path& path, const Instance& instance,
-                    const Solution& solution, Durability outlives = Durability::kMachine);
+                    const Solution& solution, Durability durability = Durability::kMachine);
 
 // Reads a plan file for `instance`. Does not verify the plan and its claims; check() does. The
 // agents of the result are ordered by AgentIndex, whatever their order in the file; an agent that

@@ -98,13 +98,15 @@ Roadmap parse_roadmap(std::string_view text, const std::string& name, const Inpu
   return Roadmap(std::move(vertices), std::move(roads));
 }
 
-void write_roadmap(const std::filesystem::path& path, const Roadmap& roadmap, Durability outlives) {
+void write_roadmap(const std::filesystem::path& path, const Roadmap& roadmap,
+                   Durability durability) {
   OrderedJson vertices = OrderedJson::array();
   for (const Vertex& vertex : roadmap.vertices())
     vertices.push_back({{"id", vertex.id}, {"at", {vertex.at.x, vertex.at.y}}});
   OrderedJson edges = OrderedJson::array();
   for (const Road& road : roadmap.roads()) edges.push_back(road_json(roadmap, road));
-  write_file_atomically(path, dump_by_lines({{"vertices", vertices}, {"edges", edges}}), outlives);
+  write_file_atomically(path, dump_by_lines({{"vertices", vertices}, {"edges", edges}}),
+                        durability);
 }
 
 }  // namespace grove::detail

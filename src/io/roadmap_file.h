@@ -19,6 +19,6 @@ Roadmap parse_roadmap(std::string_view text, const std::string& name, const Inpu
 
 // Writes a *.roadmap.json file, atomically. Throws InputError if the file cannot be written.
 void write_roadmap(const std::filesystem::path& path, const Roadmap& roadmap,
-                   Durability outlives = Durability::kMachine);
+                   Durability durability = Durability::kMachine);
 
 }  // namespace grove::detail

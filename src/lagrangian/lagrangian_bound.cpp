@@ -75,7 +75,7 @@ LagrangianBound::LagrangianBound(const Instance& instance, const AgentStopsCache
       labels_(paths_.size(), kFirstLabels),
       next_dual_solution_round_(tuning.first_dual_solution_round),
       is_priced_(paths_.size()),
-      known_(paths_.size()) {
+      known_costs_(paths_.size()) {
   begin_pricing();
 }
 
@@ -115,7 +115,7 @@ std::optional<LagrangianBound::Job> LagrangianBound::next_value() {
     labels += labels_[--job.first];
   taken_over_ = job.first;
   if (job.first == job.end) return std::nullopt;
-  job.known.assign(known_.begin() + job.first, known_.begin() + job.end);
+  job.known.assign(known_costs_.begin() + job.first, known_costs_.begin() + job.end);
   return job;
 }
 
@@ -202,7 +202,7 @@ std::vector<LagrangianBound::DispatchedRequest> LagrangianBound::dispatch_pricin
     request.round = rounds_;
     request.first = range.first;
     for (AgentIndex agent = range.first; agent < range.end; ++agent)
-      request.known.push_back(known_[agent] = known_value(agent));
+      request.known.push_back(known_costs_[agent] = known_value(agent));
     request.update = multipliers().update_for(helper.multipliers);
     helper.is_awaiting_reply = true;
     requests.push_back({range.helper, range.work, std::move(request)});

@@ -140,7 +140,7 @@ class LagrangianBound {
   AgentIndex asked_ = 0;                 // agents from this one on were requested from helpers
   AgentIndex taken_over_ = 0;            // requested agents from this one on are computed here, too
   std::vector<std::uint8_t> is_priced_;  // by agent
-  std::vector<ScaledCost> known_;        // by agent: cost of a known path, as sent to a helper
+  std::vector<ScaledCost> known_costs_;  // by agent: cost of a known path, as sent to a helper
   int unpriced_ = 0;
   std::int64_t work_between_ = 0;  // work of the jobs after the last round
 };

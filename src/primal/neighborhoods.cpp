@@ -140,8 +140,8 @@ void Neighborhoods::update_reduced_costs() {
     seen_editions_.assign(agents, 0);
   }
   for (AgentIndex agent = 0; agent < std::ssize(paths_.paths()); ++agent) {
-    if (seen_editions_[agent] == paths_.edition(agent)) continue;
-    seen_editions_[agent] = paths_.edition(agent);
+    if (seen_editions_[agent] == paths_.version(agent)) continue;
+    seen_editions_[agent] = paths_.version(agent);
     reduced_cost_[agent] =
         std::max<ScaledCost>(0, dual_solution.multipliers.price(agent, paths_.path(agent)) -
                                     dual_solution.values[agent]);

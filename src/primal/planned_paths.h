@@ -19,14 +19,14 @@ class PlannedPaths {
   explicit PlannedPaths(const Instance& instance)
       : reservations_(instance.world(), instance.may_follow() ? 0 : 1),
         paths_(static_cast<std::size_t>(instance.agent_count())),
-        editions_(paths_.size(), 0) {}
+        versions_(paths_.size(), 0) {}
 
   const ReservationTable& reservations() const { return reservations_; }
   const std::vector<Path>& paths() const { return paths_; }
   const Path& path(AgentIndex agent) const { return paths_[agent]; }
   Time cost(AgentIndex agent) const { return static_cast<Time>(paths_[agent].size()) - 1; }
   // A number that changes whenever put() adds a path for the agent.
-  std::int64_t edition(AgentIndex agent) const { return editions_[agent]; }
+  std::int64_t version(AgentIndex agent) const { return versions_[agent]; }
   // Sum of the costs of all paths.
   Cost cost() const { return cost_; }
 
@@ -35,7 +35,7 @@ class PlannedPaths {
     GROVE_ASSERT(paths_[agent].empty() && !path.empty(), "an agent has one path at most");
     reservations_.add(agent, path);
     paths_[agent] = std::move(path);
-    editions_[agent] = ++puts_;
+    versions_[agent] = ++puts_;
     cost_ += cost(agent);
     steps_moved_ += static_cast<std::int64_t>(paths_[agent].size());
   }
@@ -59,7 +59,7 @@ class PlannedPaths {
  private:
   ReservationTable reservations_;
   std::vector<Path> paths_;
-  std::vector<std::int64_t> editions_;
+  std::vector<std::int64_t> versions_;
   std::int64_t puts_ = 0;
   Cost cost_ = 0;
   std::int64_t steps_moved_ = 0;

@@ -245,8 +245,8 @@ void PrimalSearch::Impl::keep_best() {
   best_paths_.resize(static_cast<std::size_t>(agents_));
   best_editions_.resize(best_paths_.size(), 0);
   for (AgentIndex agent = 0; agent < agents_; ++agent) {
-    if (best_editions_[agent] == paths_.edition(agent)) continue;
-    best_editions_[agent] = paths_.edition(agent);
+    if (best_editions_[agent] == paths_.version(agent)) continue;
+    best_editions_[agent] = paths_.version(agent);
     best_paths_[agent] = paths_.path(agent);
   }
 }
