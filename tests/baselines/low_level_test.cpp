@@ -106,14 +106,14 @@ TEST_P(Baselines, ReportStoppedAtALimitDuringTheSearch) {
   AgentStops stops(instance, distances, 0);
   SequenceStages goals(stops, {});
   const auto search = make_agent_planner(GetParam(), instance.grid());
-  const testing::ClockReadingLimit whole(testing::kUnlimitedLooks);
+  const testing::ClockReadingLimit whole(testing::kUnlimitedReadings);
   ASSERT_EQ(search->find(goals, {constraints}, whole, path_), Outcome::kFound);
   ASSERT_EQ(static_cast<Time>(path_.size()) - 1, truth);
-  ASSERT_GT(whole.looks(), 3);
-  const std::int64_t stride = 1 + whole.looks() / 60;
-  for (std::int64_t looks = 0; looks < whole.looks(); looks += stride) {
-    SCOPED_TRACE(looks);
-    const testing::ClockReadingLimit limits(looks);
+  ASSERT_GT(whole.readings(), 3);
+  const std::int64_t stride = 1 + whole.readings() / 60;
+  for (std::int64_t readings = 0; readings < whole.readings(); readings += stride) {
+    SCOPED_TRACE(readings);
+    const testing::ClockReadingLimit limits(readings);
     ASSERT_EQ(search->find(goals, {constraints}, limits, path_), Outcome::kStopped);
   }
 }

@@ -41,9 +41,9 @@ struct Ended {
 };
 
 Ended run(Method method, const Instance& instance, SolveOptions options, bool anytime = false,
-          RunObserver* observer = nullptr, std::int64_t looks = 100'000) {
+          RunObserver* observer = nullptr, std::int64_t readings = 100'000) {
   options = options_of(method, options);
-  const testing::ClockReadingLimit limits(looks);
+  const testing::ClockReadingLimit limits(readings);
   Ended ended{solve_by(method, anytime, instance, options, limits, observer)};
   ended.stopped = ended.solution.stats.texts.count("stopped_by") > 0;
   return ended;
@@ -236,10 +236,10 @@ TEST_P(Adaptations, NameNoLimitIfThePlanIsWithinOmega) {
     if (!has_free_end(instance)) continue;
     SolveOptions options;
     options.techniques = options.techniques.without(Technique::kPrimal);
-    for (const std::int64_t looks : {20, 40, 80, 160, 320, 640}) {
-      SCOPED_TRACE("seed " + std::to_string(seed) + ", looks " + std::to_string(looks));
+    for (const std::int64_t readings : {20, 40, 80, 160, 320, 640}) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", looks " + std::to_string(readings));
       const auto [solution, stopped] =
-          run(GetParam().method, instance, options, GetParam().anytime, nullptr, looks);
+          run(GetParam().method, instance, options, GetParam().anytime, nullptr, readings);
       stopped_runs += stopped ? 1 : 0;
       if (solution.status != Status::kOptimal && solution.status != Status::kBounded) continue;
       ++within;

@@ -140,7 +140,7 @@ TEST(SharedArrays, FailedArrayIsNullptrForAllMembers) {
       one.array(ArrayKind::kDistances, 1).make([](std::byte*) -> bool { throw std::bad_alloc(); }),
       std::bad_alloc);
   for (const std::size_t number : {0, 1}) {
-    const ClockReadingLimit limits(testing::kUnlimitedLooks);
+    const ClockReadingLimit limits(testing::kUnlimitedReadings);
     EXPECT_EQ(other.array(ArrayKind::kDistances, number)
                   .get(limits,
                        [](std::byte*) {
@@ -148,7 +148,7 @@ TEST(SharedArrays, FailedArrayIsNullptrForAllMembers) {
                          return true;
                        }),
               nullptr);
-    EXPECT_EQ(limits.looks(), 0) << "the failure is known at once";
+    EXPECT_EQ(limits.readings(), 0) << "the failure is known at once";
   }
 }
 
@@ -169,11 +169,11 @@ TEST(SharedArrays, AwaitEndsWhenTheMakerIsUnresponsive) {
     const ClockReadingLimit limits(20'000);
     EXPECT_EQ(array.await(limits), nullptr);
     EXPECT_FALSE(limits.stop_requested());
-    EXPECT_GT(limits.looks(), 100) << "waits for some time";
-    const ClockReadingLimit stopped(testing::kUnlimitedLooks);
+    EXPECT_GT(limits.readings(), 100) << "waits for some time";
+    const ClockReadingLimit stopped(testing::kUnlimitedReadings);
     stopped.stop(StopReason::kInterrupt);
     EXPECT_EQ(array.await(stopped), nullptr);
-    EXPECT_LE(stopped.looks(), 2);
+    EXPECT_LE(stopped.readings(), 2);
     may_end = true;
   });
   const auto* begin = memory.of(1, 2).array(ArrayKind::kDistances, 0).await(Limits());

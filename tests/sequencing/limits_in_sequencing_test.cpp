@@ -129,12 +129,12 @@ RtspAnswer::Kind answer_of_held_karp(const CostMatrix& matrix, const Limits& lim
 TEST(HeldKarp, StopsInTheMiddleOfTheTable) {
   Random random(58);
   const CostMatrix matrix = points_in_the_plane(20, random);
-  const ClockReadingLimit whole(kUnlimitedLooks);
+  const ClockReadingLimit whole(kUnlimitedReadings);
   EXPECT_EQ(answer_of_held_karp(matrix, whole), RtspAnswer::Kind::kExact);
-  ASSERT_GT(whole.looks(), 20);
-  const ClockReadingLimit limits(whole.looks() / 10);
+  ASSERT_GT(whole.readings(), 20);
+  const ClockReadingLimit limits(whole.readings() / 10);
   EXPECT_EQ(answer_of_held_karp(matrix, limits), RtspAnswer::Kind::kStopped);
-  EXPECT_LT(limits.looks(), whole.looks() / 5);
+  EXPECT_LT(limits.readings(), whole.readings() / 5);
 }
 
 TEST(Cbc, ServesThreadsOneAtATime) {

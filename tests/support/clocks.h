@@ -27,27 +27,27 @@ class ManualClock {
   std::atomic<Limits::Clock::duration> time_{std::chrono::hours(1)};
 };
 
-// Limits whose deadline passes after `looks` readings of the clock. Each reading advances the clock
-// by one millisecond, so that a single-threaded run stops at the same point on every machine.
+// Limits whose deadline passes after `readings` readings of the clock. Each reading advances the
+// clock by one millisecond, so that a single-threaded run stops at the same point on every machine.
 class ClockReadingLimit : public Limits {
  public:
-  explicit ClockReadingLimit(std::int64_t looks) {
-    set_clock([this] { return at(++looks_); });
-    set_deadline(at(looks + 1));
+  explicit ClockReadingLimit(std::int64_t readings) {
+    set_clock([this] { return at(++readings_); });
+    set_deadline(at(readings + 1));
   }
   // Number of clock readings so far.
-  std::int64_t looks() const { return looks_; }
+  std::int64_t readings() const { return readings_; }
 
  private:
-  static Clock::time_point at(std::int64_t looks) {
-    return Clock::time_point(std::chrono::milliseconds(looks));
+  static Clock::time_point at(std::int64_t readings) {
+    return Clock::time_point(std::chrono::milliseconds(readings));
   }
 
-  mutable std::atomic<std::int64_t> looks_{0};
+  mutable std::atomic<std::int64_t> readings_{0};
 };
 
 // A number of looks that no run reaches; with it ClockReadingLimit only counts readings.
-inline constexpr std::int64_t kUnlimitedLooks = std::int64_t{1} << 40;
+inline constexpr std::int64_t kUnlimitedReadings = std::int64_t{1} << 40;
 
 // Limits that stop a run only if it hangs (after 5 minutes).
 class HangLimit : public Limits {

@@ -534,14 +534,14 @@ TEST(MddLanguage, IsCompleteOrEmptyWhenALimitIsReached) {
     if (outcome == MddBuilder::Outcome::kStopped) return graph.empty();
     return outcome == MddBuilder::Outcome::kBuilt && graph.node_count() == whole.node_count();
   };
-  const testing::ClockReadingLimit whole_run(testing::kUnlimitedLooks);
+  const testing::ClockReadingLimit whole_run(testing::kUnlimitedReadings);
   EXPECT_TRUE(is_sound(whole_run));
-  ASSERT_GT(whole_run.looks(), 3);
-  const std::int64_t stride = 1 + whole_run.looks() / 60;
-  for (std::int64_t looks = 0; looks < whole_run.looks(); looks += stride) {
-    const testing::ClockReadingLimit limits(looks);
-    EXPECT_TRUE(is_sound(limits)) << looks << " looks";
-    EXPECT_EQ(limits.reason(), StopReason::kTime) << looks << " looks";
+  ASSERT_GT(whole_run.readings(), 3);
+  const std::int64_t stride = 1 + whole_run.readings() / 60;
+  for (std::int64_t readings = 0; readings < whole_run.readings(); readings += stride) {
+    const testing::ClockReadingLimit limits(readings);
+    EXPECT_TRUE(is_sound(limits)) << readings << " looks";
+    EXPECT_EQ(limits.reason(), StopReason::kTime) << readings << " looks";
   }
 #ifndef GROVE_SANITIZERS_MEMORY
   for (int step = 0; step < 16; ++step) {
