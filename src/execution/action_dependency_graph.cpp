@@ -189,7 +189,7 @@ void ActionDependencyGraph::remove_transitive() {
   }
   for (ActionIndex a = 0; a < static_cast<ActionIndex>(actions_.size()); ++a) {
     if (after_[a] == kNoAction) continue;
-    ++(is_transitive[a] ? transitive_waits_ : waits_);
+    ++(is_transitive[a] ? removed_dependency_count_ : dependency_count_);
     if (is_transitive[a]) after_[a] = kNoAction;
   }
 }

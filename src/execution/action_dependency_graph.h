@@ -64,8 +64,8 @@ class ActionDependencyGraph {
   std::span<const ActionIndex> step(std::int32_t number) const { return steps_[number]; }
   // The number of dependencies between robots that were kept, the number that were removed as
   // transitive, and the number of rings.
-  std::int64_t waits() const { return waits_; }
-  std::int64_t transitive_waits() const { return transitive_waits_; }
+  std::int64_t dependency_count() const { return dependency_count_; }
+  std::int64_t removed_dependency_count() const { return removed_dependency_count_; }
   std::int64_t rings() const { return rings_; }
 
  private:
@@ -78,8 +78,8 @@ class ActionDependencyGraph {
   std::vector<ActionIndex> first_{0};  // by agent: its first action; then the end of the last agent
   std::vector<ActionIndex> after_;
   CsrArray steps_;
-  std::int64_t waits_ = 0;
-  std::int64_t transitive_waits_ = 0;
+  std::int64_t dependency_count_ = 0;
+  std::int64_t removed_dependency_count_ = 0;
   std::int64_t rings_ = 0;
 };
 

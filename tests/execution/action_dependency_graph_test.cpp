@@ -46,7 +46,7 @@ TEST(ActionDependencyGraph, OmitsWaits) {
   ASSERT_EQ(order.actions().size(), 2u);
   EXPECT_EQ(order.actions()[0].begin, 1);
   EXPECT_EQ(order.actions()[1].begin, 3);
-  EXPECT_EQ(order.waits(), 0);
+  EXPECT_EQ(order.dependency_count(), 0);
 }
 
 TEST(ActionDependencyGraph, FollowerDependsOnTheMoveOfItsLeader) {
@@ -67,7 +67,7 @@ TEST(ActionDependencyGraph, OmitsTransitiveDependencies) {
       plan_of(instance,
               {{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}},
                {{0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {1, 1}, {2, 1}, {2, 0}, {3, 0}}}));
-  EXPECT_EQ(order.waits(), 2);  // for (2, 0) and (3, 0), which is left later
+  EXPECT_EQ(order.dependency_count(), 2);  // for (2, 0) and (3, 0), which is left later
   const Instance back = instance_of(
       {"....", "...."}, {AgentSpec{{0, 0}, Position{3, 1}}, AgentSpec{{0, 1}, Position{0, 0}}});
   const ActionDependencyGraph backwards(
@@ -75,8 +75,9 @@ TEST(ActionDependencyGraph, OmitsTransitiveDependencies) {
       plan_of(back,
               {{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}},
                {{0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {1, 1}, {2, 1}, {2, 0}, {1, 0}, {0, 0}}}));
-  EXPECT_EQ(backwards.waits(), 1);  // for (2, 0) only, because (1, 0) and (0, 0) were left before
-  EXPECT_EQ(backwards.transitive_waits(), 2);
+  EXPECT_EQ(backwards.dependency_count(),
+            1);  // for (2, 0) only, because (1, 0) and (0, 0) were left before
+  EXPECT_EQ(backwards.removed_dependency_count(), 2);
 }
 
 TEST(ActionDependencyGraph, RotationIsOneStep) {
@@ -89,7 +90,7 @@ TEST(ActionDependencyGraph, RotationIsOneStep) {
   EXPECT_EQ(order.rings(), 1);
   ASSERT_EQ(order.step_count(), 1);
   EXPECT_THAT(order.step(0), ::testing::UnorderedElementsAre(0, 1, 2, 3));
-  EXPECT_EQ(order.waits(), 0);
+  EXPECT_EQ(order.dependency_count(), 0);
 }
 
 TEST(ActionDependencyGraph, RefusesCollisions) {
@@ -115,27 +116,27 @@ std::set<std::pair<ActionIndex, ActionIndex>> all_waits(const World& world,
                                                         const std::vector<bool>& in_rotation) {
   const auto actions = order.actions();
   const auto count = static_cast<ActionIndex>(actions.size());
-  std::set<std::pair<ActionIndex, ActionIndex>> waits;
+  std::set<std::pair<ActionIndex, ActionIndex>> dependency_count;
   for (ActionIndex a = 0; a < count; ++a) {
     for (ActionIndex b = 0; b < count; ++b) {
       if (actions[a].agent == actions[b].agent) {
-        if (a < b) waits.emplace(a, b);
+        if (a < b) dependency_count.emplace(a, b);
       } else if (actions[a].kind == Action::Kind::kMove && actions[b].kind == Action::Kind::kMove &&
                  world.place(actions[a].from) == world.place(actions[b].to) &&
                  actions[a].begin <= actions[b].begin &&
                  !(in_rotation[a] && in_rotation[b] && actions[a].begin == actions[b].begin)) {
-        waits.emplace(a, b);
+        dependency_count.emplace(a, b);
       }
     }
   }
-  return waits;
+  return dependency_count;
 }
 
-void close_transitively(std::set<std::pair<ActionIndex, ActionIndex>>& waits,
+void close_transitively(std::set<std::pair<ActionIndex, ActionIndex>>& dependency_count,
                         const ActionDependencyGraph& order) {
   const auto count = static_cast<ActionIndex>(order.actions().size());
   std::vector<std::vector<bool>> is(count, std::vector<bool>(count));
-  for (const auto& [a, b] : waits) is[a][b] = true;
+  for (const auto& [a, b] : dependency_count) is[a][b] = true;
   // A dependency of one action of a rotation holds for all its actions, and an action that depends
   // on one action of a rotation depends on all of them.
   for (std::int32_t step = 0; step < order.step_count(); ++step)
@@ -150,20 +151,20 @@ void close_transitively(std::set<std::pair<ActionIndex, ActionIndex>>& waits,
       if (is[a][k])
         for (ActionIndex b = 0; b < count; ++b)
           if (is[k][b]) is[a][b] = true;
-  waits.clear();
+  dependency_count.clear();
   for (ActionIndex a = 0; a < count; ++a)
     for (ActionIndex b = 0; b < count; ++b)
-      if (is[a][b]) waits.emplace(a, b);
+      if (is[a][b]) dependency_count.emplace(a, b);
 }
 
 std::set<std::pair<ActionIndex, ActionIndex>> waits_of(const ActionDependencyGraph& order,
                                                        ActionIndex without = kNoAction) {
-  std::set<std::pair<ActionIndex, ActionIndex>> waits;
+  std::set<std::pair<ActionIndex, ActionIndex>> dependency_count;
   for (ActionIndex a = 0; a < static_cast<ActionIndex>(order.actions().size()); ++a) {
-    if (order.before(a) != kNoAction) waits.emplace(order.before(a), a);
-    if (order.after(a) != kNoAction && a != without) waits.emplace(order.after(a), a);
+    if (order.before(a) != kNoAction) dependency_count.emplace(order.before(a), a);
+    if (order.after(a) != kNoAction && a != without) dependency_count.emplace(order.after(a), a);
   }
-  return waits;
+  return dependency_count;
 }
 
 TEST(ActionDependencyGraph, EqualsTheDefinitionWithoutRedundancy) {
@@ -180,7 +181,7 @@ TEST(ActionDependencyGraph, EqualsTheDefinitionWithoutRedundancy) {
     ++plans;
     const ActionDependencyGraph order(instance, *solution.plan);
     rings += static_cast<int>(order.rings());
-    left_out += order.transitive_waits();
+    left_out += order.removed_dependency_count();
     std::vector<bool> in_rotation(order.actions().size());
     for (std::int32_t step = 0; step < order.step_count(); ++step)
       for (const ActionIndex a : order.step(step)) in_rotation[a] = order.step(step).size() > 1;

@@ -202,7 +202,7 @@ class Execution {
     undisturbed.add(order_, simulate_nominal(order_));
     const Cost makespan = std::ranges::max(plan.agents, {}, &AgentPlan::cost).cost;
     fmt::print("passing order: {} actions, {} waits between robots, {} rings\n",
-               order_.actions().size(), order_.waits(), order_.rings());
+               order_.actions().size(), order_.dependency_count(), order_.rings());
     fmt::print("{:<27}{:>10}{:>14}\n", "", "makespan", "sum of costs");
     fmt::print("{:<27}{:>10}{:>14}\n", "planned", makespan, plan.cost);
     row("driven undisturbed", undisturbed, plan.cost, makespan);

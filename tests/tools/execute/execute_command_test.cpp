@@ -110,7 +110,7 @@ TEST_F(ExecuteCommand, WritesThePassingOrder) {
   const json plan = json::parse(std::ifstream(plan_));
   std::map<std::string, std::size_t> actions;
   for (const json& robot : order["robots"]) actions[robot["id"]] = robot["actions"].size();
-  int waits = 0;
+  int dependency_count = 0;
   std::vector<std::tuple<std::string, std::string, json>> visited;
   for (std::size_t i = 0; i < order["robots"].size(); ++i) {
     const json& robot = order["robots"][i];
@@ -119,7 +119,7 @@ TEST_F(ExecuteCommand, WritesThePassingOrder) {
       EXPECT_EQ(action["do"], "move");
       places.push_back(action["to"]);
       if (!action.contains("after")) continue;
-      ++waits;
+      ++dependency_count;
       EXPECT_LT(action["after"]["action"], actions.at(action["after"]["robot"]));
     }
     for (std::size_t k = 0; k < robot["actions"].size(); ++k)
@@ -131,7 +131,7 @@ TEST_F(ExecuteCommand, WritesThePassingOrder) {
     path.erase(std::unique(path.begin(), path.end()), path.end());
     EXPECT_EQ(places, path);
   }
-  EXPECT_GT(waits, 50);
+  EXPECT_GT(dependency_count, 50);
   std::vector<std::tuple<std::string, std::string, json>> tasks;
   const json instance = json::parse(std::ifstream(instance_));
   for (const json& task : instance["tasks"])
