@@ -196,7 +196,7 @@ TEST(RankNodes, CoverAllRootsOfARestartUntilRanksReportThem) {
   RankNodes nodes(children);
   const std::vector<NodePtr> roots{s.new_root(), s.new_root(), s.new_root()};
   nodes.restart(roots, 0);
-  std::int64_t assigned = 0;
+  std::int64_t total = 0;
   for (int rank = 0; rank < 2; ++rank) {
     EXPECT_EQ(transport.sent<message::Restart>(rank).size(), 1);
     const auto assigned = transport.sent<message::AssignNodes>(rank);
