@@ -96,7 +96,7 @@ void FarmClient::poll() {
   try {
     while (const std::optional<FarmMessage> message = receive_from_master()) {
       if (!std::holds_alternative<Stop>(*message))
-        throw std::logic_error("a busy leader can only be told to stop");
+        throw std::logic_error("a busy group leader accepts only a message to stop");
       interrupted_ = true;
     }
   } catch (...) {

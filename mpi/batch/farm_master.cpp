@@ -74,7 +74,7 @@ void FarmMaster::on(int, Other&) {
 void FarmMaster::end_assignment(int leader, const std::string* id) {
   const auto it = under_way_.find(leader);
   if (it == under_way_.end() || (id != nullptr && it->second.id != *id))
-    throw std::logic_error("a group reports what it was not told to solve");
+    throw std::logic_error("a group reports a run that was not assigned to it");
   under_way_.erase(it);
 }
 

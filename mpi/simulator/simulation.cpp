@@ -110,7 +110,7 @@ class Simulation {
   SimulatedRun run() {
     bool stopped = false;
     while (left_ < std::ssize(ranks_) && !stopped) {
-      if (agenda_.empty()) throw std::logic_error("a simulated search came to a standstill");
+      if (agenda_.empty()) throw std::logic_error("the simulated search has no next event");
       const Event event = agenda_.top();
       agenda_.pop();
       setting_.network.advance_to(event.time);

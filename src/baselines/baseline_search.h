@@ -16,7 +16,8 @@ class BaselineSearch : public AgentPlanner {
                    Path& path) final {
     const auto is_bar = [](const Constraint& c) { return c.kind == ConstraintKind::kVertexOrEdge; };
     if (!std::ranges::all_of(query.constraints, is_bar))
-      throw std::invalid_argument("the low levels of other methods know no constraints but bars");
+      throw std::invalid_argument(
+          "the low levels of published methods support only vertex and edge constraints");
     if (query.reservations || goals.sequence_class() != SequenceClass())
       throw std::invalid_argument(
           "the low levels of other methods plan through all sequences, around constraints");

@@ -32,7 +32,7 @@ Time SpaceTimeLegs::arrival(Cell from, Time time, Target target, const Limits& l
 
 void SpaceTimeLegs::append(Cell from, Time time, Target target, Path& path) {
   std::int32_t id = find(from, time, target, Limits());
-  if (id == kNone) throw std::logic_error("internal error: a leg that was found is lost");
+  if (id == kNone) throw std::logic_error("internal error: a leg that was found is missing");
   const Time end = labels_[id].time;
   const std::size_t before = path.size();
   path.resize(before + static_cast<std::size_t>(end - time));

@@ -53,7 +53,7 @@ Time TimeIntervalForest::arrival(Cell from, Time time, Target target, const Limi
 void TimeIntervalForest::append(Cell from, Time time, Target target, Path& path) {
   const Tree* tree = tree_to(target, Limits());
   const Piece* piece = find(*tree, from, time);
-  if (!piece) throw std::logic_error("internal error: a leg that was found is lost");
+  if (!piece) throw std::logic_error("internal error: a leg that was found is missing");
   while (piece->next != kNone) {
     piece = &tree->pieces[piece->next];
     path.push_back(piece->cell);

@@ -11,7 +11,7 @@
 namespace grove::detail {
 
 Split split(const Conflict& c) {
-  GROVE_ASSERT(c.first >= 0 && c.first < c.second, "two agents conflict");
+  GROVE_ASSERT(c.first >= 0 && c.first < c.second, "a conflict must have two agents");
   if (c.is_following()) {
     // Either the leading agent is not on the place one step earlier, or the follower does not enter
     // it then.

@@ -169,7 +169,7 @@ Solution choose_and_solve(const Instance& instance, const SolveOptions& options,
   const auto destinations = choose_destinations(problem, options.tuning.visitor_steps, limits);
   if (!destinations && limits.stop_requested()) return stopped(options, limits);
   if (!destinations)
-    throw std::logic_error("internal error: agents that can rest have nowhere to do so");
+    throw std::logic_error("internal error: agents that can rest have no place of rest");
 
   merged.note(
       "One task of each agent without a goal becomes its goal; the lower bound is for all plans.");

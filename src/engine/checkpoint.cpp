@@ -147,7 +147,7 @@ void CheckpointWriter::write_trees(const std::vector<TreeRecord>& trees) {
 
 void CheckpointWriter::add(NodeRecord node) {
   if (node.tree >= trees_)
-    throw std::invalid_argument("a node must be of a tree of its checkpoint");
+    throw std::invalid_argument("a node must belong to a tree of its checkpoint");
   waiting_bytes_ += bytes_of(node);
   waiting_.push_back(std::move(node));
   ++nodes_;

@@ -135,7 +135,7 @@ std::vector<std::pair<int, PricingRequest>> LagrangianScheduler::dispatch_pricin
 Cost LagrangianScheduler::accept(int rank, PricingReply answer) {
   LagrangianBound* const bound = this->bound();
   if (bound == nullptr || rank < 1 || rank >= ranks_)
-    throw std::invalid_argument("prices of a rank that was not asked");
+    throw std::invalid_argument("pricing result: the rank has no outstanding request");
   own_ += answer.work - asked_of_[static_cast<std::size_t>(rank)];
   prices_of_ranks_ += bound->accept(rank - 1, std::move(answer));
   return update_from_bound();

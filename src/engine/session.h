@@ -64,7 +64,9 @@ class Session {
   // Thrown if a robot's path ends at a closed part of the map before the committed steps end.
   struct NotCommitted : std::invalid_argument {
     NotCommitted(AgentIndex the_agent, Time the_steps)
-        : std::invalid_argument("a committed path is closed"), agent(the_agent), steps(the_steps) {}
+        : std::invalid_argument("a committed path uses a closed place"),
+          agent(the_agent),
+          steps(the_steps) {}
     AgentIndex agent;
     Time steps;  // number of steps for which the robot can follow the old plan
   };

@@ -47,9 +47,9 @@ void Penalties::add(Time arrival, Arc arc, Amount amount) {
     pages_.resize(pages_.size() + kOnPage);
   }
   Amount& there = pages_[page * kOnPage + static_cast<std::size_t>(arc) % kOnPage];
-  if (there + amount > kMaxPenalty) throw std::overflow_error("a penalty is too great");
+  if (there + amount > kMaxPenalty) throw std::overflow_error("a penalty exceeds its maximum");
   there += amount;
-  GROVE_ASSERT(there >= 0, "a penalty is never less than nothing");
+  GROVE_ASSERT(there >= 0, "a penalty must not be negative");
 }
 
 }  // namespace grove::detail

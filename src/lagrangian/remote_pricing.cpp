@@ -19,7 +19,7 @@ void RemotePricing::accept(PricingRequest request) {
   const auto agents = static_cast<std::int64_t>(request.known.size());
   if (share_ || agents == 0 || request.first < 0 ||
       request.first + agents > instance_.agent_count())
-    throw std::invalid_argument("prices are asked for that cannot be wanted");
+    throw std::invalid_argument("pricing request: invalid agents");
   multipliers_.apply(request.update);
   answer_.round = request.round;
   answer_.digest = multipliers_.digest();

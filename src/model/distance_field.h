@@ -121,7 +121,8 @@ class DistanceFields {
   // Distances to the states where the agent may rest. Precondition: the agent does not rest on the
   // last stop of its sequence.
   DistanceView to_rest(AgentIndex agent) const {
-    GROVE_ASSERT(by_agent_[agent], "an agent that rests on its last stop has no other place");
+    GROVE_ASSERT(by_agent_[agent],
+                 "an agent that rests on its last stop has no other place of rest");
     return by_agent_[agent];
   }
 

@@ -73,7 +73,7 @@ SharedArrays::SharedArrays(std::span<std::byte> memory, const ArrayLayout& layou
     : memory_(memory), member_(member), members_(members) {
   GROVE_ASSERT(memory.size() >= bytes(layout), "there is room for all arrays");
   if (reinterpret_cast<std::uintptr_t>(memory.data()) % kAlignment != 0)
-    throw std::invalid_argument("memory for arrays must begin at a multiple of kAlignment");
+    throw std::invalid_argument("memory for arrays must start at a multiple of kAlignment");
   std::size_t begin = zero_bytes(layout);
   std::size_t flag = 0;
   for (std::size_t kind = 0; kind < layout.size(); ++kind)

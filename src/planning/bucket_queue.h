@@ -94,8 +94,9 @@ inline void BasicBucketQueue<Progress>::reset(Time first) {
 
 template <class Progress>
 inline void BasicBucketQueue<Progress>::push(Time layer, const Entry& entry) {
-  GROVE_ASSERT(layer >= layer_, "layers never grow smaller");
-  GROVE_ASSERT(entry.conflicts <= kMaxConflicts, "conflicts are counted up to a limit");
+  GROVE_ASSERT(layer >= layer_, "layers must not decrease");
+  GROVE_ASSERT(entry.conflicts <= kMaxConflicts,
+               "the number of conflicts must not exceed its maximum");
   pool_.push_back({entry, layer, kNone});
   place(static_cast<std::int32_t>(pool_.size() - 1));
 }

@@ -99,7 +99,8 @@ void ConflictAvoidanceTable::remove(const Path& path) {
   for (Time t = 0; t <= std::min(since, kLastTime); ++t) {
     const Place place = world_.place(path[t]);
     Counts& counts = counts_[slot(key(place, t))];
-    GROVE_ASSERT(counts.key == key(place, t) && counts.visits > 0, "a path that goes was there");
+    GROVE_ASSERT(counts.key == key(place, t) && counts.visits > 0,
+                 "a path must be in the table before it is removed");
     --counts.visits;
     if (t > 0 && before != place) --counts.moves[direction(world_, before, place)];
     before = place;
@@ -107,7 +108,7 @@ void ConflictAvoidanceTable::remove(const Path& path) {
   const Place end = world_.place(path.back());
   const auto gone = std::ranges::find_if(
       rests_, [&](const Rest& rest) { return rest.place == end && rest.since == since; });
-  GROVE_ASSERT(gone != rests_.end(), "a path that goes was there");
+  GROVE_ASSERT(gone != rests_.end(), "a path must be in the table before it is removed");
   *gone = rests_.back();
   rests_.pop_back();
   first_rest_[end] = kNever;
@@ -145,7 +146,7 @@ int ConflictAvoidanceTable::conflicts_of_resting(Place place, Time time) const {
 }
 
 int ConflictAvoidanceTable::conflicts_of(const Path& path) const {
-  GROVE_ASSERT(!path.empty(), "an agent is somewhere");
+  GROVE_ASSERT(!path.empty(), "a path must not be empty");
   int count = 0;
   for (std::size_t t = 1; t < path.size(); ++t)
     count += conflicts(world_.place(path[t - 1]), world_.place(path[t]), static_cast<Time>(t));

@@ -79,7 +79,7 @@ std::optional<ConstraintKind> constraint_kind(std::uint8_t number) {
 
 bool satisfies(const World& world, const Path& path, const Constraint& c,
                const Corridors& corridors) {
-  GROVE_ASSERT(!path.empty(), "an agent is somewhere");
+  GROVE_ASSERT(!path.empty(), "a path must not be empty");
   switch (c.kind) {
     case ConstraintKind::kVertexOrEdge:
       return avoids(world, path, c);
@@ -93,7 +93,7 @@ bool satisfies(const World& world, const Path& path, const Constraint& c,
     case ConstraintKind::kStopIsNot:
       break;
   }
-  throw std::invalid_argument("a constraint on the sequence is not about the path");
+  throw std::invalid_argument("a sequence constraint does not apply to paths");
 }
 
 std::optional<Constraint> constraint_on(AgentIndex agent, const AgentConstraint& added) {

@@ -19,7 +19,7 @@ FixedOrderSipp::~FixedOrderSipp() = default;
 PathOutcome FixedOrderSipp::find(const GoalSequence& goals, const PathQuery& query,
                                  const Limits& limits, Path& path) {
   if (goals.size() > FixedOrderGoals::kMaxGoals)
-    throw std::invalid_argument("an agent may have 255 goals at most");
+    throw std::invalid_argument("an agent can have at most 255 goals");
   if (query.reservations)
     throw std::invalid_argument("goals in a fixed order are not planned around reservations");
   if (limits.stop_requested()) return PathOutcome::kStopped;

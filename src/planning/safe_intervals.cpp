@@ -74,13 +74,13 @@ void SafeIntervals::check(const Constraint& c) {
   const auto is_place = [this](Place p) { return p >= 0 && p < world_.place_count(); };
   const bool has_from = c.is_move() || c.kind == ConstraintKind::kNoTraversal;
   if (!is_place(c.cell) || (has_from && (!is_place(c.from) || c.from == c.cell)))
-    throw std::invalid_argument("a constraint must bar a place or a move between two");
+    throw std::invalid_argument("a constraint must forbid a place or a move between two places");
   if (is_about_sequence(c))
-    throw std::invalid_argument("a constraint on the sequence is none on the path");
+    throw std::invalid_argument("a sequence constraint does not apply to paths");
   if (c.kind != ConstraintKind::kNoTraversal) return;
   if (!corridors_) corridors_.emplace(world_);
   if (!leaves_at_front(c) && !leaves_at_back(c))
-    throw std::invalid_argument("a traversal must leave a chain for one of its ends");
+    throw std::invalid_argument("a traversal must leave a corridor by one of its ends");
 }
 
 bool SafeIntervals::leaves_at_front(const Constraint& c) const {

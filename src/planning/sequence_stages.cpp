@@ -325,7 +325,7 @@ Sequence realized_sequence(const SequenceStages& goals, const Path& path) {
   const bool rests = stops.rests_on_last_stop() ? !sequence.empty() && sequence.back() == last
                                                 : !path.empty() && stops.to_rest(path.back()) == 0;
   if (sequence.size() != complete || !rests)
-    throw std::invalid_argument("a path that realizes no sequence of the class");
+    throw std::invalid_argument("the path realizes no sequence of the class");
   return sequence;
 }
 

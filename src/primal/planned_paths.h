@@ -32,7 +32,7 @@ class PlannedPaths {
 
   // Adds a path. The agent must have none, and `path` must not collide with the other paths.
   void put(AgentIndex agent, Path path) {
-    GROVE_ASSERT(paths_[agent].empty() && !path.empty(), "an agent has one path at most");
+    GROVE_ASSERT(paths_[agent].empty() && !path.empty(), "an agent must have at most one path");
     reservations_.add(agent, path);
     paths_[agent] = std::move(path);
     versions_[agent] = ++puts_;
@@ -41,7 +41,7 @@ class PlannedPaths {
   }
   // Removes and returns the path of `agent`, which must have one.
   Path take(AgentIndex agent) {
-    GROVE_ASSERT(!paths_[agent].empty(), "a path that is taken was there");
+    GROVE_ASSERT(!paths_[agent].empty(), "a path must exist before it is taken");
     cost_ -= cost(agent);
     steps_moved_ += static_cast<std::int64_t>(paths_[agent].size());
     reservations_.remove(agent, paths_[agent]);

@@ -123,7 +123,7 @@ void Frontier::reinsert(NodePtr node) {
 void Frontier::release_locked(const NodePtr& node) {
   const auto it = taken_.find(rank(node));
   GROVE_ASSERT(it != taken_.end() && std::ranges::count(in_progress_, node) > 0,
-               "only taken nodes are completed or reinserted");
+               "only taken nodes can be completed or reinserted");
   if (--it->second == 0) taken_.erase(it);
   std::swap(*std::ranges::find(in_progress_, node), in_progress_.back());
   in_progress_.pop_back();
@@ -171,7 +171,7 @@ Cost Frontier::evicted_bound() const {
 // Atomic: between the two changes there would be neither nodes nor an evicted bound.
 void Frontier::restart(std::span<const NodePtr> roots, Cost proven) {
   const std::lock_guard lock(mutex_);
-  GROVE_ASSERT(open_.empty() && taken_.empty(), "a restart while a node is live");
+  GROVE_ASSERT(open_.empty() && taken_.empty(), "a restart requires that no node is live");
   proven_ = proven;
   for (const NodePtr& root : roots) push_locked(root);
   evicted_bound_ = kInfiniteCost;

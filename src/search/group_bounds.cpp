@@ -85,7 +85,7 @@ class Collector {
 
 void require_place(const GroupBound& finding, std::size_t nodes) {
   if (finding.node < 0 || static_cast<std::size_t>(finding.node) >= nodes)
-    throw std::invalid_argument("a finding must be about one of the nodes that it came with");
+    throw std::invalid_argument("an excess bound must belong to a node of its batch");
 }
 
 void require_agents(const GroupBound& finding, std::size_t agents) {
@@ -93,7 +93,8 @@ void require_agents(const GroupBound& finding, std::size_t agents) {
   const bool ascend = std::ranges::adjacent_find(group, std::greater_equal<>()) == group.end();
   if (group.size() < 2 || !ascend || group.front() < 0 ||
       static_cast<std::size_t>(group.back()) >= agents || finding.known.excess < 0)
-    throw std::invalid_argument("a finding must be about agents of the instance, in order");
+    throw std::invalid_argument(
+        "an excess bound must name agents of the instance in ascending order");
 }
 
 }  // namespace

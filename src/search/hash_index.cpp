@@ -21,7 +21,8 @@ void HashIndex::reserve_one() {
 }
 
 HashIndex::Number HashIndex::add(std::uint32_t hash) {
-  GROVE_ASSERT(static_cast<std::size_t>(size_) < slots_.size(), "reserve_one() comes first");
+  GROVE_ASSERT(static_cast<std::size_t>(size_) < slots_.size(),
+               "reserve_one() must be called first");
   put({hash, size_});
   return size_++;
 }

@@ -59,7 +59,8 @@ class Facts {
 
 void require(bool possible) {
   if (!possible)
-    throw std::invalid_argument("a fact must be about agents of the instance, in order");
+    throw std::invalid_argument(
+        "a learned bound must name agents of the instance in ascending order");
 }
 
 void require_order(const LearnedBound& fact) {

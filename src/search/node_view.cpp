@@ -15,7 +15,8 @@ NodeView::NodeView(const Problem& problem, const SearchOptions& options, WorkerC
       finder_(problem.instance.world(), problem.instance.may_follow()) {}
 
 void NodeView::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
-  GROVE_ASSERT(node && std::ranges::is_sorted(scope), "a scope is in ascending order");
+  GROVE_ASSERT(node && std::ranges::is_sorted(scope),
+               "the agents of a scope must be in ascending order");
   if (audit_) audit(problem_, *node, scope);
   node_ = node;
   scope_.assign(scope.begin(), scope.end());
@@ -48,7 +49,7 @@ void NodeView::find_conflicts() {
 }
 
 SubproblemTable::Id NodeView::subproblem(AgentIndex agent) {
-  GROVE_ASSERT(is_in_scope(agent), "of others nothing is kept up to date");
+  GROVE_ASSERT(is_in_scope(agent), "only agents in scope are up to date");
   AgentCache::CachedSubproblem& known = agent_cache_.subproblems[agent];
   const AgentSequencing& order = this->order(agent);
   if (known.order != &order || known.numbering != memory_.numbering())

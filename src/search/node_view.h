@@ -57,7 +57,7 @@ class NodeView {
   // canonical order. subproblem(): the number of its subproblem. The agent must be in scope.
   const AgentSequencing& order(AgentIndex agent) const { return *node_->tree().orders[agent]; }
   std::span<const Constraint> constraints(AgentIndex agent) const {
-    GROVE_ASSERT(is_in_scope(agent), "of others nothing is other up to date");
+    GROVE_ASSERT(is_in_scope(agent), "only agents in scope are up to date");
     return agent_cache_.constraints[agent];
   }
   SubproblemTable::Id subproblem(AgentIndex agent);

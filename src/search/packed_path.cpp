@@ -75,7 +75,7 @@ std::size_t packed_words(const World& world, std::uint32_t steps) {
 }
 
 void pack(const World& world, const Path& path, std::uint64_t* words) {
-  GROVE_ASSERT(!path.empty(), "an agent is somewhere");
+  GROVE_ASSERT(!path.empty(), "a path must not be empty");
   with_codes(world, [&](const auto& codes, std::uint32_t bits) {
     const std::uint32_t per_word = 64 / bits;
     for (std::uint32_t step = 0; step + 1 < path.size(); ++step) {
@@ -97,7 +97,7 @@ void PackedSteps::unpack(const World& world, State start, Path& path) const {
     std::uint64_t word = 0;
     for (std::uint32_t step = 0; step < steps; ++step) {
       if (step % per_word == 0) word = words[step / per_word];
-      GROVE_ASSERT(codes.has(state, word & mask), "what is unpacked is a walk");
+      GROVE_ASSERT(codes.has(state, word & mask), "an unpacked path must be a walk");
       state = codes.after(state, word & mask);
       word >>= bits;
       path[step + 1] = state;

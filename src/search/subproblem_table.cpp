@@ -78,7 +78,7 @@ void add_to_canonical(std::vector<Constraint>& constraints, const Constraint& mo
 SubproblemTable::Id SubproblemTable::id(AgentIndex agent, const AgentSequencing& order,
                                         std::span<const Constraint> constraints) {
   GROVE_ASSERT(std::ranges::is_sorted(constraints, {}, key_of),
-               "constraints are in canonical order");
+               "constraints must be in canonical order");
   std::string& key = key_begun(agent, order);
   pack(constraints, key);
   return id_of_key(order, key);
@@ -134,7 +134,7 @@ SubproblemTable::Id SubproblemTable::Part::find_or_add(std::uint32_t hash,
   const Id found = index.find(hash, [&](Id entry) { return key(entry) == sought; });
   if (found != HashIndex::kNone) return found;
   const auto first = static_cast<std::uint32_t>(keys.size());
-  GROVE_ASSERT(first == keys.size(), "long before that a memory is full, and another one begun");
+  GROVE_ASSERT(first == keys.size(), "the table has too many subproblems");
   index.reserve_one();
   entries.push_back({first, {}});
   try {

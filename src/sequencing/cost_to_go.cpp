@@ -261,7 +261,7 @@ Time CostToGo::cost_to_go(StopSet left, int port) const {
 }
 
 bool CostToGo::extend(Time cost_limit, const Limits& limits) {
-  GROVE_ASSERT(cost_limit < kNever, "there is more to know");
+  GROVE_ASSERT(cost_limit < kNever, "the cost limit must be finite");
   if (outside_bound() > cost_limit) return true;
   if (cost_limit >= refused_) return false;
   const auto known = std::ranges::find_if(extended_, [&](const Extension& extended) {

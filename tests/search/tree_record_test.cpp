@@ -115,7 +115,7 @@ TEST_F(TreeRecords, RestoreTreesOfSequenceClasses) {
   EXPECT_EQ(record_of(restored->tree()), record);
 
   of_two->sequences.forbidden_next = StopSet{1} << second;
-  EXPECT_EQ(answer(trees_, record), "a path that realizes no sequence of the class");
+  EXPECT_EQ(answer(trees_, record), "the path realizes no sequence of the class");
 }
 
 TEST_F(TreeRecords, RestoreNodesBelowARestoredRoot) {
@@ -216,7 +216,7 @@ TEST_F(SmallTreeRecords, AreRefusedIfAPathMissesItsStops) {
   });
   expect(message, [](TreeRecord& r) { std::ranges::reverse(r.orders[0].sequences.prefix); });
   expect(message, [&](TreeRecord& r) { take_path(r.orders[1], {{0, 2}, {1, 2}, {2, 2}, {3, 2}}); });
-  const char* free_message = "a path that realizes no sequence of the class";
+  const char* free_message = "the path realizes no sequence of the class";
   expect_free(free_message, [&](TreeRecord& r) { take_path(r.orders[1], {{0, 2}, {1, 2}}); });
   expect_free(free_message, [&](TreeRecord& r) {
     take_path(r.orders[0], {{0, 0}, {1, 0}, {2, 0}, {3, 0}});

@@ -74,7 +74,7 @@ bool satisfies(const World& grid, const Path& walked, const Constraint& c) {
     case ConstraintKind::kStopIsNot:
       break;  // cannot be decided from the path alone
   }
-  throw std::invalid_argument("a constraint on the sequence is not about the path");
+  throw std::invalid_argument("a sequence constraint does not apply to paths");
 }
 
 }  // namespace grove::detail::testing
