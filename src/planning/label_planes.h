@@ -61,7 +61,7 @@ class LabelPlanes {
   // open() must have returned true for the state in this search.
   Label& label(std::int32_t slot, std::int32_t state) {
     const Use& use = by_state_[state];
-    GROVE_ASSERT(use.stamp == stamp_, "the state must not be open");
+    GROVE_ASSERT(use.stamp == stamp_, "the state must be open");
     Label& found = use.labels[slot];
     if (auto& touched = use.touched[slot / kGroup]; !touched) {
       touched = true;

@@ -134,7 +134,7 @@ SubproblemTable::Id SubproblemTable::Part::find_or_add(std::uint32_t hash,
   const Id found = index.find(hash, [&](Id entry) { return key(entry) == sought; });
   if (found != HashIndex::kNone) return found;
   const auto first = static_cast<std::uint32_t>(keys.size());
-  GROVE_ASSERT(first == keys.size(), "the table has too many subproblems");
+  GROVE_ASSERT(first == keys.size(), "the key offsets must fit into 32 bits");
   index.reserve_one();
   entries.push_back({first, {}});
   try {
