@@ -5,12 +5,12 @@
 //
 // *Choice of the conflict.* Strong branching, as in integer programming (Applegate et al. 1995; for
 // CBS the idea behind cardinal conflicts, Boyarski et al. 2015). For every split that the node's
-// conflicts allow, the increase of the sum of costs is computed exactly for both branches, unless a
-// computation exceeds the label limit. The split with the largest smaller increase is chosen. The
-// increases are differences of costs of single agents under constraints. These costs are cached,
-// because most conflicts of a node were already evaluated at its parent. The increase of a branch
-// that cannot lead to a plan cheaper than the cutoff counts as infinite; a split with two such
-// branches closes the node.
+// conflicts allow, the increase of the sum of costs is computed exactly for both branches; a split
+// for which a computation exceeds the label limit is not considered. The split whose smaller
+// increase is largest is chosen; the larger increase breaks ties. The increases are differences of
+// costs of single agents under constraints. These costs are cached, because most conflicts of a
+// node were already evaluated at its parent. The increase of a branch that cannot lead to a plan
+// cheaper than the cutoff counts as infinite; a split with two such branches closes the node.
 //
 // *Fewest conflicts.* Of the cheapest paths of a branch, one with the fewest conflicts is computed
 // (fewest_conflicts.cpp), because the low level by itself examines few of the ways to spend a
@@ -102,7 +102,7 @@ void Brancher::update_avoidance_table(const NodeView& view) {
 }
 
 // Chooses the split that raises the bounds most. Without strong branching, or if no split could be
-// evaluated, chooses a split of an earliest conflict.
+// evaluated, chooses the preferred split of an earliest conflict.
 bool Brancher::choose(const Task& task, std::span<const Split> fallback_splits, Branching& chosen) {
   const Techniques techniques = options_.techniques;
   if (!techniques.has(Technique::kStrongBranching)) {
