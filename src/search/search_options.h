@@ -19,8 +19,8 @@ struct SearchOptions {
   bool audit = false;
   Tuning tuning = {};
   ProofLog* proof = nullptr;  // sink of the certificate; nullptr: none
-  // The effort for a node and its counters do not depend on earlier nodes. This is slower if agents
-  // have many tasks.
+  // The number of labels that a low-level call expands does not depend on earlier calls. This is
+  // slower if agents have many tasks.
   bool repeatable = false;
 };
 
