@@ -70,7 +70,7 @@ class DependencyTable {
   // changed.
   bool merge_pair(Id first, Id second, AgentIndex agent, ExcessBound known);
   // Appends the agents of greater index, with their subproblems, that have a positive excess with
-  // the subproblem `first`. An agent occurs once per subproblem.
+  // the subproblem `first`. An agent can occur several times, with different subproblems.
   void partners(Id first, std::vector<Partner>& partners) const;
 
   // The entry of a group, or ExcessBound() if there is none.

@@ -39,13 +39,13 @@ struct ExpansionCounts {
   std::int64_t low_level_calls = 0;
   std::int64_t low_level_expanded = 0;  // labels
   std::int64_t pair_expansions = 0;     // nodes expanded to bound pairs and groups
-  std::int64_t optimal_nodes = 0;       // MddBuilder::nodes(), and MDD nodes searched for conflicts
-  std::int64_t joint_mdd_nodes = 0;     // pairs of MDD nodes compared (joint MDDs)
-  std::int64_t group_states = 0;        // states expanded by joint search of pairs and groups
-  std::int64_t group_work = 0;          // effort of joint search, in the unit of work.h
-  std::int64_t subproblems = 0;         // look-ups of subproblems
-  std::int64_t groups = 0;              // groups compared in full or looked up
-  std::int64_t path_steps = 0;          // path steps searched for conflicts
+  std::int64_t optimal_nodes = 0;    // MddBuilder::nodes(), and nodes that FewestConflicts searched
+  std::int64_t joint_mdd_nodes = 0;  // pairs of MDD nodes compared (joint MDDs)
+  std::int64_t group_states = 0;     // states expanded by joint search of pairs and groups
+  std::int64_t group_work = 0;       // effort of joint search, in the unit of work.h
+  std::int64_t subproblems = 0;      // look-ups of subproblems
+  std::int64_t groups = 0;           // groups compared in full or looked up
+  std::int64_t path_steps = 0;       // path steps searched for conflicts
   // Branching, without that of pairs and groups: splits by the kind of their second constraint
   // (Brancher::splits()); bypasses; cost queries of strong branching and re-planning, and those
   // that the cache answered. mdd_queries and mdd_hits: all MDD queries, and those that the cache

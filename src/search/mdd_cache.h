@@ -30,8 +30,8 @@ class MddCache {
 
   // Returns nullptr if the MDD is not cached.
   Set find(SubproblemTable::Id id) const;
-  // Adds the MDD of a requested subproblem as young. An old MDD becomes young, so call this also if
-  // find() has returned it.
+  // Adds the MDD of a requested subproblem as young. An old MDD becomes young, so call add() also
+  // for an MDD that find() has returned.
   void add(SubproblemTable::Id id, const Set& set);
 
   // Builds the MDD of the subproblem (`agent`, `order`, `constraints`), whose least cost is `cost`.

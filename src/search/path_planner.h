@@ -67,7 +67,7 @@ class PathPlanner {
   TimeExpandedGraphs timed_;
   AgentStopsCache& stops_;
   bool repeatable_;
-  std::vector<std::unique_ptr<SequenceStages>> free_goals_;  // by AgentIndex: of the last query
+  std::vector<std::unique_ptr<SequenceStages>> free_goals_;  // by AgentIndex, for the last class
 };
 
 }  // namespace grove::detail

@@ -36,7 +36,7 @@ struct CacheDelta {
 };
 
 // Entries that were added to a SharedCache or improved since the last call of take_new_entries().
-// Their subproblem numbers are valid for this cache.
+// Their subproblem numbers are valid for that cache.
 struct NewEntries {
   std::vector<std::pair<SubproblemTable::Id, SubproblemTable::CostBound>> costs;
   std::vector<CacheDelta::Pair> pairs;

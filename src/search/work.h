@@ -12,7 +12,7 @@ namespace grove::detail::work {
 // Rates for dividing the effort between tree search and primal search.
 inline constexpr std::int64_t kPerCall = 16;      // units per low-level call, besides its labels
 inline constexpr std::int64_t kStepsSeen = 4;     // path steps searched for conflicts, per unit
-inline constexpr std::int64_t kStepsMoved = 8;    // path steps added or removed (tables), per unit
+inline constexpr std::int64_t kStepsMoved = 8;    // path steps added or removed in tables, per unit
 inline constexpr std::int64_t kStatesPriced = 5;  // states of a congestion distance field, per unit
 
 // Rates that estimate the duration of an expansion: labels and calls as above, and the other
