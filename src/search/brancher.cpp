@@ -13,8 +13,8 @@
 // cheaper than the cutoff counts as infinite; a split with two such branches closes the node.
 //
 // *Fewest conflicts.* Of the cheapest paths of a branch, one with the fewest conflicts is computed
-// (fewest_conflicts.cpp), because the low level by itself examines few of the ways to spend a
-// delay.
+// (fewest_conflicts.cpp), unless their MDD would be too large, because the low level by itself
+// examines few of the ways to spend a delay.
 //
 // *Bypassing* (Boyarski et al. 2015). If the paths of a branch cost no more than those of the node
 // and have fewer conflicts, they replace the node's paths, and the node is not split. This is sound
@@ -149,7 +149,7 @@ Branching Brancher::earliest(const NodeView& view) {
 }
 
 // Re-plans the agents of one branch, preferring few conflicts with the paths of other agents.
-// evaluate_branch(), replan() and replan_one() return false if a limit was reached.
+// evaluate_branch(), replan() and replan_one() return false where branch() must return kStopped.
 bool Brancher::evaluate_branch(const Task& task, const AgentConstraint& constraint, Branch& side) {
   side.open = true;
   side.increase = 0;

@@ -53,8 +53,8 @@ namespace {
 
 constexpr PebbleNode kStuck = -1;
 
-// A way from a crossing, or a dead end, to the next one. Ways between crossings are stored twice,
-// once per direction.
+// A way from a crossing to the next crossing or dead end, or between two dead ends. Ways between
+// crossings are stored twice, once per direction.
 struct Way {
   PebbleNode from = PebbleGraph::kNone;  // kNone: the graph consists of this way only
   std::vector<PebbleNode> nodes;         // includes the other end
@@ -63,7 +63,7 @@ struct Way {
   PebbleNode before_end() const { return nodes.size() > 1 ? nodes[nodes.size() - 2] : from; }
 };
 
-// The part of the analysis that depends only on the graph and the number of free nodes.
+// The part of the analysis that does not depend on which agent is on which node.
 class Crossings {
  public:
   Crossings(const PebbleGraph& board, int free, bool may_follow)

@@ -13,7 +13,7 @@ class ProofLog;  // search/proof_log.h
 
 struct SearchOptions {
   Techniques techniques;
-  std::uint64_t seed = 0;  // breaks ties among conflicts
+  std::uint64_t seed = 0;  // breaks ties where the earliest conflict is chosen
   // Checks every expanded node, and the tables kept from node to node, against recomputed values
   // (audit.h). The search then takes several times as long.
   bool audit = false;

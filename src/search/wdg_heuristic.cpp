@@ -172,7 +172,8 @@ WdgHeuristic::Outcome WdgHeuristic::solve_conflicting_pairs(NodeView& view, Cost
   return Outcome::kDone;
 }
 
-// Tests whether both agents can keep their costs. Returns nullopt if a limit was reached.
+// Tests whether both agents can keep their costs. Returns nullopt where the caller must return
+// kStopped.
 std::optional<Dependence> WdgHeuristic::compare(NodeView& view, AgentIndex a, AgentIndex b,
                                                 const Limits& limits) {
   const Mdd* of_a = mdd(view, a, limits);
@@ -236,7 +237,7 @@ std::vector<SubproblemTable::Id> WdgHeuristic::key(std::span<const AgentIndex> g
 }
 
 // Raises `known`, the excess of a pair or group, by splits and then by joint search. Returns false
-// if a limit was reached.
+// where the caller must return kStopped.
 bool WdgHeuristic::solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
                          std::int64_t max_expansions, const Limits& limits, ExcessBound& known) {
   if (!solve_by_splits(view.node(), group, slack, max_expansions, limits, known)) return false;
