@@ -13,8 +13,8 @@ namespace grove::detail {
 Split split(const Conflict& c) {
   GROVE_ASSERT(c.first >= 0 && c.first < c.second, "a conflict must have two agents");
   if (c.is_following()) {
-    // Either the leading agent is not on the place one step earlier, or the follower does not enter
-    // it then.
+    // Either the leading agent is not on the place one step before the conflict, or the follower is
+    // not on it at the time of the conflict.
     const auto bar = [&](AgentIndex agent) {
       const Time time = agent == c.follower ? c.time : c.time - 1;
       return Constraint{c.cell, kNoPlace, time, time};
@@ -85,7 +85,8 @@ void ConflictFinder::find_vertex_conflicts(Time time, std::vector<Conflict>& con
   });
 }
 
-// Enters the agent at its place and reports the vertex conflicts that it has there.
+// Enters the agent at its place and reports its new vertex conflicts with agents entered before it
+// and with resting agents.
 void ConflictFinder::add_vertex_conflicts(AgentIndex agent, Time time,
                                           std::vector<Conflict>& conflicts) {
   const Place place = now_[agent];
@@ -116,8 +117,8 @@ void ConflictFinder::find_edge_conflicts(AgentIndex agent, Time time,
     if (agent < other && now_[other] == from) conflicts.push_back({agent, other, to, from, time});
 }
 
-// Reports the following conflicts in which `agent` enters a place. An agent that stays on the place
-// is a vertex conflict, and an agent that moves the opposite way is a swap, so both are skipped.
+// Reports the following conflicts in which `agent` enters a place. Skips an agent that stays on the
+// place (a vertex conflict) and an agent that moves the opposite way (a swap).
 void ConflictFinder::find_following_conflicts(AgentIndex agent, Time time,
                                               std::vector<Conflict>& conflicts) const {
   const Place to = now_[agent];

@@ -23,14 +23,14 @@ struct Conflict {
                           // following conflict, the place that is entered and left
   Place from = kNoPlace;  // for a swap, the place that `first` leaves and `second` arrives on;
                           // else kNoPlace
-  Time time = 0;          // for a swap, the time of arrival
+  Time time = 0;          // for a swap or a following conflict, the time of arrival
   AgentIndex follower = -1;  // for a following conflict, the agent that enters `cell`; else -1
 
   bool is_swap() const { return from != kNoPlace; }
   bool is_following() const { return follower >= 0; }
 };
 
-// Two constraints, at least one of which every conflict-free plan satisfies.
+// Two constraints such that every conflict-free plan satisfies at least one of them.
 using Split = std::array<AgentConstraint, 2>;
 
 // The standard CBS split: every pair of paths without this conflict satisfies at least one of the
@@ -44,9 +44,10 @@ class ConflictFinder {
   // `world` must outlive this object. `may_follow`: see Instance.
   explicit ConflictFinder(const World& world, bool may_follow = true);
 
-  // Replaces `conflicts` by all conflicts among the paths of `agents`, in order of time, each with
-  // `first` < `second`. `paths` is indexed by AgentIndex. If two agents stay on one place together,
-  // only the first time counts. O(agents * time + conflicts).
+  // Replaces `conflicts` by all conflicts among the paths of `agents` (ascending), in order of
+  // time, each with `first` < `second`. `paths` is indexed by AgentIndex. If two agents stay on one
+  // place together, only the first time counts. About O(agents * time + conflicts), if few agents
+  // stay together on one place.
   void all(std::span<const Path> paths, std::span<const AgentIndex> agents,
            std::vector<Conflict>& conflicts);
 

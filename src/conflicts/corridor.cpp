@@ -27,7 +27,7 @@
 // Turning round inside and starting inside are not traversals and stay allowed. The split says
 // nothing about the order of visits or about other passages. Each of the two conflicting paths
 // violates the constraint on its agent. The split expresses "which agent passes first" by times
-// only, without labels.
+// only.
 #include <algorithm>
 #include <array>
 

@@ -21,7 +21,7 @@ namespace grove::detail {
 class AgentGraph {
  public:
   using Node = std::uint16_t;
-  // Limit of make(): a graph of more nodes is not that of a small instance.
+  // Upper limit of make(), whatever `max_nodes` is: only small instances are searched jointly.
   static constexpr std::size_t kMaxNodes = 1 << 12;
 
   struct Move {
@@ -29,12 +29,12 @@ class AgentGraph {
     Time delta_f;  // its cost plus to_go(to), minus to_go() of the node it leaves
   };
 
-  // Returns nullopt if more than `max_nodes` nodes are reachable.
+  // Returns nullopt if more than min(max_nodes, kMaxNodes) nodes are reachable.
   static std::optional<AgentGraph> make(const Instance& instance, AgentIndex agent,
                                         std::size_t max_nodes = kMaxNodes);
 
   AgentIndex agent() const { return agent_; }
-  // Number of nodes; 0 if the agent cannot complete its stops even without other agents.
+  // Number of nodes; 0 if the agent has no path even without other agents.
   std::size_t count() const { return to_go_.size(); }
   static constexpr Node start() { return 0; }
   Place place(Node node) const { return places_[node]; }

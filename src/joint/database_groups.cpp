@@ -7,10 +7,12 @@
 namespace grove::detail {
 namespace {
 
-// Entries of one database made before the search, and effort of all of these (search/work.h).
+// Maximum entries of one database made before the search, and maximum effort of all of these
+// (search/work.h).
 constexpr std::size_t kMaxEntries = std::size_t{1} << 18;
 constexpr std::int64_t kMaxTableWork = 4'000'000;
-// Entries of one late database, and maximum number of agents with which there are late databases.
+// Maximum entries of one late database, and maximum number of agents with which there are late
+// databases.
 constexpr std::size_t kMaxLateEntries = std::size_t{1} << 21;
 constexpr std::size_t kMaxGroupedLate = 6;
 

@@ -17,27 +17,28 @@
 namespace grove::detail {
 
 // Databases for pairs and triples of agents. Small databases are made before the search; larger
-// ones, called *late*, are made once the search has taken as much effort as they take. One thread
-// at a time.
+// ones, called *late*, are made once the search has taken as much effort as all databases so far
+// and the next one take together. One thread at a time.
 class DatabaseGroups {
  public:
   using Node = AgentGraph::Node;
 
-  // Starts without databases. Both arguments must outlive this object.
+  // Starts without databases. `instance` and the elements of `agents` must outlive this object.
   DatabaseGroups(const Instance& instance, std::span<const AgentGraph> agents)
       : instance_(instance), agents_(agents) {}
 
-  // Plans databases for all pairs, then for all triples, that are small enough. No database for all
-  // agents is planned, because the search itself would be that database.
+  // Plans databases for the pairs, then for the triples, that are small enough; none if there are
+  // more than kMaxGrouped agents. No database for all agents is planned, because the search itself
+  // would be that database.
   void plan();
   // Whether a planned database must still be made before the search.
   bool are_due() const { return !to_come_.empty(); }
-  // Makes the next database that must be made before the search. Returns false if a limit was
-  // reached.
+  // Makes the next database that must be made before the search. Requires are_due(). Returns false
+  // if a limit was reached.
   bool make_next(const Limits& limits);
-  // is_late_due(): whether the next late database is due, because it and all databases made so far
-  // take at most the effort `of_search` (unit of search/work.h). make_late(): makes it; returns
-  // false if a limit was reached.
+  // is_late_due(): whether there is a late database to make and it, together with all databases
+  // made so far, takes at most the effort `of_search` (unit of search/work.h). make_late(): makes
+  // it; returns false if a limit was reached.
   bool is_late_due(std::int64_t of_search) const;
   bool make_late(const Limits& limits);
 

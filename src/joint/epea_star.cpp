@@ -12,17 +12,17 @@
 // is admissible.
 //
 // *Layers.* The queue is ordered by the *layer* of a state, which is its cost + estimate. Layers
-// are emptied in ascending order. *Claim: the current layer is a lower bound on all plans, and the
-// first state taken whose individual costs to go are all 0 ends an optimal plan.* *Proof.* For each
-// plan there is always a state on its way in the queue whose layer is at most the plan's cost. (A
-// state that is reached at a lower cost enters the queue again, even if it has been expanded.)
-// States whose layer reaches the cutoff are dropped, because plans through them cost at least the
-// cutoff. So an empty queue proves that no plan costs less than the cutoff, or that there is no
-// plan if there is no cutoff.
+// are emptied in ascending order. *Claim: the current layer is a lower bound on all plans below the
+// cutoff, and the first state taken whose individual costs to go are all 0 ends an optimal plan.*
+// *Proof.* For each such plan there is always a state on its way in the queue whose layer is at
+// most the plan's cost. (A state that is reached at a lower cost enters the queue again, even if it
+// has been expanded.) States whose layer reaches the cutoff are dropped, because plans through them
+// cost at least the cutoff. So an empty queue proves that no plan costs less than the cutoff, or
+// that there is no plan if there is no cutoff.
 //
-// *Late databases.* Larger pattern databases are made once the search has taken as much effort as
-// they take. If a state that is taken from the queue has an estimate from before the newest
-// database, the estimate is recomputed.
+// *Late databases.* A larger pattern database is made once the search has taken as much effort as
+// this and all earlier databases take. If a state that is taken from the queue has an estimate from
+// before the newest database, the estimate is recomputed.
 //
 // *Enhanced partial expansion* (Goldenberg et al., JAIR 2014). The delta_f of a move is its
 // increase of the agent's individual cost, which is never negative. An expansion generates the
@@ -251,7 +251,8 @@ class EpeaStar::Search {
       __builtin_prefetch(&records_[there]);
       __builtin_prefetch(nodes_of(there));
     }
-    // States with the least delta_f are pushed last, so that a layer returns them first.
+    // The successors generated first tend to have the least delta_f. They are pushed last, so that
+    // a layer returns them first.
     for (std::size_t i = next_.size(); i-- > 0;)
       reach(next_nodes_.data() + i * size(), next_[i].hash, parent_, next_[i].cost,
             next_[i].individual_costs);

@@ -22,8 +22,8 @@ class PatternDatabase {
   using Node = AgentGraph::Node;
   static constexpr std::uint8_t kUnreachable = 255;
 
-  // make() makes the database for the agents at the positions `members`, which ascend, in `agents`.
-  // It returns nullopt if a limit was reached. entries(): its size in bytes. work(): the effort of
+  // `members`: positions in `agents`, ascending. make(): makes the database for these agents;
+  // returns nullopt if a limit was reached. entries(): its size in bytes. work(): the effort of
   // making it, in the unit of search/work.h.
   static std::optional<PatternDatabase> make(const Instance& instance,
                                              std::span<const AgentGraph> agents,
@@ -35,8 +35,8 @@ class PatternDatabase {
                            std::span<const std::size_t> members);
 
   const std::vector<std::size_t>& members() const { return members_; }
-  // Lower bound on the excess at `nodes` (one per agent), at most 254. kUnreachable: the members
-  // cannot all come to rest from there.
+  // Lower bound on the excess of the members at `nodes` (one per element of `agents`), at most 254.
+  // kUnreachable: the members cannot all come to rest from there.
   std::uint8_t excess(const Node* nodes) const {
     std::size_t entry = 0;
     for (std::size_t i = 0; i < members_.size(); ++i) entry += nodes[members_[i]] * strides_[i];

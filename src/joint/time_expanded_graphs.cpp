@@ -6,11 +6,11 @@
 // rest but waits pays for the wait, as in any agent graph. Where states are places, a deadline for
 // coming to rest (kRestBy) limits the cost; elsewhere the slots express it.
 //
-// *Claim: the paths of the graph that end at rest are exactly the paths that cost `max_cost` or
-// less.* *Proof.* A node is dropped only if its time plus its distance to the end exceeds
-// `max_cost`. The cost-to-go table is extended until it covers all sequences within this cost, so
-// no stage of such a path is unknown. A path that counts each stop as early as possible passes all
-// stages that matter (mdd.cpp).
+// *Claim: the paths of the graph that end at rest are exactly the paths that satisfy the
+// constraints and cost `max_cost` or less.* *Proof.* A node is dropped only if its time plus its
+// distance to the end exceeds `max_cost`. The costs to go are extended until they cover all
+// sequences within this cost, so no stage of such a path is unknown. A path that counts each stop
+// as early as possible passes all stages that matter (mdd.cpp).
 //
 // *Backward pass.* The earliest finish from each node is computed by descending time, because every
 // move leads to a later time. So the individual cost to go from a node is exact under the

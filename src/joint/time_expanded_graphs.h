@@ -22,7 +22,7 @@ class TimeExpandedGraphs {
   enum class Outcome : std::uint8_t {
     kMade,
     kTooLarge,  // more than `max_nodes` nodes, or more than can be numbered (32,767)
-    kStopped,   // a limit was reached
+    kStopped,   // a limit was reached, or the costs to go of `goals` would become too large
   };
 
   // `world` must outlive this object.
@@ -30,7 +30,8 @@ class TimeExpandedGraphs {
 
   // Makes the graph of the paths that realize a sequence of the class of `goals`, satisfy
   // `constraints` (none of them on the sequence) and cost at most `max_cost`. If there is no such
-  // path, the graph has no nodes. Extends the cost-to-go table of `goals` as needed.
+  // path, the graph has no nodes. Extends the costs to go of `goals` as needed. After all outcomes
+  // except kMade the graph has no nodes.
   Outcome make(SequenceStages& goals, std::span<const Constraint> constraints, Time max_cost,
                std::size_t max_nodes, const Limits& limits, AgentGraph& graph);
   // Nodes expanded so far, over all calls.

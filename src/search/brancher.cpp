@@ -5,16 +5,16 @@
 //
 // *Choice of the conflict.* Strong branching, as in integer programming (Applegate et al. 1995; for
 // CBS the idea behind cardinal conflicts, Boyarski et al. 2015). For every split that the node's
-// conflicts allow, the increase of the sum of costs is computed exactly for both branches, unless a
-// computation exceeds the label limit. The split with the largest smaller increase is chosen. The
-// increases are differences of costs of single agents under constraints. These costs are cached,
-// because most conflicts of a node were already evaluated at its parent. The increase of a branch
-// that cannot lead to a plan cheaper than the cutoff counts as infinite; a split with two such
-// branches closes the node.
+// conflicts allow, the increase of the sum of costs is computed exactly for both branches; a split
+// for which a computation exceeds the label limit is not considered. The split whose smaller
+// increase is largest is chosen; the larger increase breaks ties. The increases are differences of
+// costs of single agents under constraints. These costs are cached, because most conflicts of a
+// node were already evaluated at its parent. The increase of a branch that cannot lead to a plan
+// cheaper than the cutoff counts as infinite; a split with two such branches closes the node.
 //
 // *Fewest conflicts.* Of the cheapest paths of a branch, one with the fewest conflicts is computed
-// (fewest_conflicts.cpp), because the low level by itself examines few of the ways to spend a
-// delay.
+// (fewest_conflicts.cpp), unless their MDD would be too large, because the low level by itself
+// examines few of the ways to spend a delay.
 //
 // *Bypassing* (Boyarski et al. 2015). If the paths of a branch cost no more than those of the node
 // and have fewer conflicts, they replace the node's paths, and the node is not split. This is sound
@@ -102,7 +102,7 @@ void Brancher::update_avoidance_table(const NodeView& view) {
 }
 
 // Chooses the split that raises the bounds most. Without strong branching, or if no split could be
-// evaluated, chooses a split of an earliest conflict.
+// evaluated, chooses the preferred split of an earliest conflict.
 bool Brancher::choose(const Task& task, std::span<const Split> fallback_splits, Branching& chosen) {
   const Techniques techniques = options_.techniques;
   if (!techniques.has(Technique::kStrongBranching)) {
@@ -149,7 +149,7 @@ Branching Brancher::earliest(const NodeView& view) {
 }
 
 // Re-plans the agents of one branch, preferring few conflicts with the paths of other agents.
-// evaluate_branch(), replan() and replan_one() return false if a limit was reached.
+// evaluate_branch(), replan() and replan_one() return false where branch() must return kStopped.
 bool Brancher::evaluate_branch(const Task& task, const AgentConstraint& constraint, Branch& side) {
   side.open = true;
   side.increase = 0;

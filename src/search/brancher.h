@@ -33,7 +33,8 @@ class Brancher {
   enum class Outcome : std::uint8_t {
     kBranched,
     kConflictFree,  // NodeView::paths() have no conflict, possibly after bypasses
-    kStopped,       // a limit was reached; there is no result
+    kStopped,       // a limit was reached, or the costs to go of an agent would become too large;
+                    // there is no result
   };
 
   // `problem`, `planner` and `memory` must outlive this object. `planner` and `memory` may be
@@ -41,12 +42,13 @@ class Brancher {
   Brancher(const Problem& problem, const SearchOptions& options, PathPlanner& planner,
            WorkerCache& memory);
 
-  // Creates the children of the node that `view` has entered and appends them to `children`, at
-  // most two. Every plan that satisfies the node's constraints and costs less than `cutoff`
-  // satisfies the constraints of at least one child; a child that is proven to hold no such plan is
-  // omitted. `fallback_splits` are further splits that are valid at the node. Strong branching
-  // considers them if no split of a conflict raises the cost of any branch, and then only those
-  // whose two agents are in conflict.
+  // Splits the node that `view` has entered, unless its paths have no conflict, and appends the
+  // children, at most two, to `children`. If the result is kBranched, every plan that satisfies the
+  // node's constraints and costs less than `cutoff` satisfies the constraints of at least one
+  // child; a child that is proven to hold no such plan is omitted. `fallback_splits` are further
+  // splits that are valid at the node. Strong branching considers them in order, as long as the
+  // best split so far raises the cost of no branch, and only those whose two agents are in
+  // conflict.
   Outcome branch(NodeView& view, Cost cutoff, std::span<const Split> fallback_splits,
                  const Limits& limits, std::vector<NodePtr>& children);
   // The split that the last call of branch() made; nullopt if it made none.
@@ -55,7 +57,7 @@ class Brancher {
   // Counters since construction. optimal_nodes(): MDD nodes searched for paths with the fewest
   // conflicts. splits(): splits by the kind of their second constraint, which identifies the
   // technique (kRestBy: target, kNoRestBy: cost split). child_costs(): cost queries of strong
-  // branching.
+  // branching and of re-planning.
   std::int64_t optimal_nodes() const { return fewest_conflicts_.nodes(); }
   std::span<const std::int64_t, kConstraintKinds> splits() const { return splits_made_; }
   std::int64_t bypasses() const { return bypasses_; }
@@ -70,8 +72,8 @@ class Brancher {
     std::vector<AgentIndex> agents;  // the re-planned agents
     std::vector<Path> paths;         // their new paths, in the same order
   };
-  // The best split so far. Splits are compared by (smaller, larger) cost increase of their
-  // branches.
+  // The best split so far. Splits are compared by the smaller cost increase of their two branches,
+  // and then by the larger one.
   struct Choice {
     std::pair<Cost, Cost> gain{-1, -1};
     Branching branching;

@@ -30,13 +30,14 @@ class ChildCosts {
       : planner_(planner), memory_(memory), label_limit_(label_limit) {}
 
   // Sets `increase` to the total by which the individual costs of the agents in scope rise if
-  // `constraint` is added, or to kInfiniteCost if that exceeds `slack`.
+  // `constraint` is added, or to kInfiniteCost if that exceeds `slack`. `increase` is valid only if
+  // the result is kDone.
   Outcome increase(NodeView& view, const AgentConstraint& constraint, Cost slack,
                    const Limits& limits, Cost& increase);
 
   // Sets `cost` to the cost of the agent under its constraints at the node and `more`, or to some
-  // value above `cutoff` if the cost is above `cutoff`. With PathQuery::kUnlimited it ignores that
-  // an earlier call was too hard.
+  // value above `cutoff` if the cost is above `cutoff`. Sets it only if the result is kDone. With
+  // PathQuery::kUnlimited it ignores that an earlier call was too hard.
   Outcome cost(NodeView& view, AgentIndex agent, const Constraint& more, Time cutoff,
                std::int64_t label_limit, const Limits& limits, Time& cost);
 
@@ -54,7 +55,8 @@ class ChildCosts {
   std::int64_t known_ = 0;
 };
 
-// The greatest cost that an agent may have if the sum of costs may rise by at most `slack`.
+// The greatest cost that an agent may have if the sum of costs may rise by at most `slack`; at most
+// kNever - 1.
 inline Time cutoff_for(const NodeView& view, AgentIndex agent, Cost slack) {
   return static_cast<Time>(std::min<Cost>(view.cost_of(agent) + slack, kNever - 1));
 }

@@ -64,8 +64,9 @@ class Component {
     return sum;
   }
 
-  // Returns whether all statements can be fulfilled by raising the integers by at most `left` in
-  // total; also returns true if the step limit is reached.
+  // Returns whether all statements can be fulfilled by raising the integers of agents that are not
+  // frozen by at most `left` in total; also returns true once the step limit or a limit of the run
+  // is reached.
   bool fulfil(Cost left) {
     steps_ -= static_cast<std::int64_t>(statements_.size());
     if (++calls_ % kCallsPerPoll == 0 && limits_.stop_requested()) steps_ = 0;

@@ -24,9 +24,9 @@ struct GroupExcess {
 // costs. This is the least sum of nonnegative integers, one per agent, such that the integers of
 // each statement's agents add up to at least its excess. If all statements are about pairs, this is
 // a weighted vertex cover (Li et al., IJCAI 2019). The result is this sum unless more than `steps`
-// statements must be examined, the sum is in the hundreds, or a limit is reached. In these cases it
-// can be smaller, but it is still a valid bound. At most kInfiniteCost. Unless a limit is reached,
-// the result depends only on `statements` and `steps`.
+// statements must be examined, the sum over one connected component of the statements exceeds 256,
+// or a limit is reached. In these cases it can be smaller, but it is still a valid bound. At most
+// kInfiniteCost. Unless a limit is reached, the result depends only on `statements` and `steps`.
 Cost covering_bound(std::span<const GroupExcess> statements, std::int64_t steps = 100'000,
                     const Limits& limits = Limits());
 

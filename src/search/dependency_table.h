@@ -69,7 +69,8 @@ class DependencyTable {
   // `agent` is the agent of `second`. merge_pair() and merge_group() return whether the table
   // changed.
   bool merge_pair(Id first, Id second, AgentIndex agent, ExcessBound known);
-  // Appends the agents of greater index that have a positive excess with the agent of `first`.
+  // Appends the agents of greater index, with their subproblems, that have a positive excess with
+  // the subproblem `first`. An agent can occur several times, with different subproblems.
   void partners(Id first, std::vector<Partner>& partners) const;
 
   // The entry of a group, or ExcessBound() if there is none.
@@ -103,8 +104,8 @@ class DependencyTable {
     Id second;
     ExcessBound known;
   };
-  // One list of items for each subproblem. Within a part, the positions of subproblems are
-  // consecutive.
+  // One list of items per subproblem. An array finds the list, because the subproblems of a part
+  // have consecutive positions (Id / kParts).
   template <class Item>
   class Lists {
    public:

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Expansion of a node: Algorithm 1 of the paper, lines 9-22. Finds the conflicts of the node's
-// paths; if there are none, the node yields a plan. Otherwise it first tries to raise the node's
-// bound: a node whose bound rises returns to the frontier, where other nodes may now be better. If
+// paths; if there are none, the node yields a plan. Otherwise the WDG heuristic first tries to
+// raise the node's bound, unless it has done so before. A node whose bound rises returns to the
+// frontier, where other nodes may now be better, or is dropped if the bound reaches the cutoff. If
 // the bound does not rise, the node is split.
 #include "search/expander.h"
 

@@ -20,14 +20,14 @@
 
 namespace grove::detail {
 
-// Result of an expansion. `stopped`: a limit was reached. `unfinished`: bounding the node takes
-// more effort than one call should spend. In both cases there is no result and the node is
-// unchanged. Otherwise either `plan` is a cheapest plan of the node, or the children together hold
-// every plan of the node that costs less than `cutoff`.
+// Result of an expansion. `stopped`: a limit was reached, or the costs to go of an agent would
+// become too large. `unfinished`: bounding the node takes more effort than one call should spend.
+// In both cases there is no result. Otherwise either `plan` is a cheapest plan of the node, or the
+// children together hold every plan of the node that costs less than `cutoff`.
 struct Expansion {
   bool stopped = false;
   bool unfinished = false;
-  Cost cutoff = kInfiniteCost;    // the argument of expand()
+  Cost cutoff = kInfiniteCost;    // the argument of expand(); not set if `stopped`
   std::optional<Plan> plan;       // conflict-free paths of the node's cost, if found
   std::vector<NodePtr> children;  // at most two, see Brancher::branch(); a single child may be the
                                   // same node with a higher bound
@@ -39,16 +39,17 @@ struct ExpansionCounts {
   std::int64_t low_level_calls = 0;
   std::int64_t low_level_expanded = 0;  // labels
   std::int64_t pair_expansions = 0;     // nodes expanded to bound pairs and groups
-  std::int64_t optimal_nodes = 0;       // MDD nodes built or searched for conflicts
-  std::int64_t joint_mdd_nodes = 0;     // pairs of MDD nodes compared (joint MDDs)
-  std::int64_t group_states = 0;        // states examined by joint search of pairs and groups
-  std::int64_t group_work = 0;          // effort of joint search, in the unit of work.h
-  std::int64_t subproblems = 0;         // look-ups of subproblems
-  std::int64_t groups = 0;              // groups compared in full or looked up
-  std::int64_t path_steps = 0;          // path steps searched for conflicts
-  // Branching: splits by the kind of their second constraint (Brancher::splits()); bypasses; cost
-  // queries of strong branching, and those that the cache answered. mdd_queries and mdd_hits: MDD
-  // queries, and those that the cache answered.
+  std::int64_t optimal_nodes = 0;    // MddBuilder::nodes(), and nodes that FewestConflicts searched
+  std::int64_t joint_mdd_nodes = 0;  // pairs of MDD nodes compared (joint MDDs)
+  std::int64_t group_states = 0;     // states expanded by joint search of pairs and groups
+  std::int64_t group_work = 0;       // effort of joint search, in the unit of work.h
+  std::int64_t subproblems = 0;      // look-ups of subproblems
+  std::int64_t groups = 0;           // groups compared in full or looked up
+  std::int64_t path_steps = 0;       // path steps searched for conflicts
+  // Branching, without that of pairs and groups: splits by the kind of their second constraint
+  // (Brancher::splits()); bypasses; cost queries of strong branching and re-planning, and those
+  // that the cache answered. mdd_queries and mdd_hits: all MDD queries, and those that the cache
+  // answered.
   std::array<std::int64_t, kConstraintKinds> splits{};
   std::int64_t bypasses = 0;
   std::int64_t branching_cost_queries = 0;
@@ -61,19 +62,20 @@ struct ExpansionCounts {
 };
 
 // Expands nodes with the help of cached results on agents, pairs and groups. Every bound is proven,
-// whatever the cache holds. The strength of a bound can depend on the cache, because each pair is
-// examined only once, with the cutoff that applied then. One thread at a time; engines give each
-// worker its own expander.
+// whatever the cache holds. The strength of a bound can depend on the cache, because each pair or
+// group is examined only once, with the cutoff that applied then. One thread at a time; engines
+// give each worker its own expander.
 class Expander {
  public:
-  // `problem` and `stops` must outlive the expander; `stops` may be shared with other objects of
-  // the same thread. `planner` plans agents whose sequence is free; nullptr: Grove's own low level.
+  // `problem`, `stops` and options.proof must outlive the expander; `stops` may be shared with
+  // other objects of the same thread. `planner` plans agents whose sequence is free; nullptr:
+  // Grove's own low level.
   Expander(const Problem& problem, AgentStopsCache& stops, const SearchOptions& options,
            std::shared_ptr<SharedCache> memory = std::make_shared<SharedCache>(),
            std::unique_ptr<AgentPlanner> planner = nullptr);
 
   // Expands `node`, looking only for plans that cost less than `cutoff` (the cost of the incumbent;
-  // kInfiniteCost: all plans). A lower `bounding_effort` makes the node's bound weaker, but not
+  // kInfiniteCost: all plans). A lower `bounding_effort` can make the node's bound weaker, but not
   // invalid. The expander keeps no reference to any node; otherwise the memory in use would depend
   // on which expander expanded which node last.
   Expansion expand(const NodePtr& node, Cost cutoff, const Limits& limits,
@@ -81,8 +83,8 @@ class Expander {
 
   // Helps to bound `node` after its expansion by another worker has returned `unfinished`. Examines
   // the conflicting pairs that are left, starting at the fraction `share` in [0, 1) of the list of
-  // pairs. The caller only has to publish the results. Returns false if there was nothing left to
-  // do.
+  // pairs. The caller only has to publish the results. Returns whether it made low-level calls or
+  // joint searches; if not, nothing that takes effort was left to do, or a limit was reached.
   bool help(const NodePtr& node, Cost cutoff, double share, const Limits& limits);
 
   ExpansionCounts counts() const;
@@ -97,12 +99,13 @@ class Expander {
   // the caller merges the result of take_delta() elsewhere.
   void publish() { memory()->merge(take_delta()); }
   CacheDelta take_delta() { return memory_.take_delta(); }
-  // Continues with a different shared cache, possibly an empty one.
+  // Continues with this shared cache, possibly an empty one. If it is a different one, results that
+  // were not taken are dropped.
   void use_shared_cache(std::shared_ptr<SharedCache> memory) {
     memory_.use_shared_cache(std::move(memory));
   }
   const std::shared_ptr<SharedCache>& memory() const { return memory_.common(); }
-  // Per-agent data that is cache between nodes; see NodeView::swap_cache().
+  // Per-agent data that is kept between nodes; see NodeView::swap_cache().
   struct AgentCaches {
     NodeView::AgentCache of_nodes;
     NodeView::AgentCache of_groups;

@@ -5,8 +5,8 @@
 //
 // *Order.* Of any two required places an agent visits one first, so the other must be reachable
 // from it. Its destination must be reachable from all required places. (Where every step can be
-// undone, this follows from *Reach*. If the condition holds for all pairs, an agent that ignores
-// the others can visit all places, in any order that is compatible with reachability.)
+// undone, this follows from *Reach*. If the condition holds for all pairs, an agent without other
+// agents can visit all its places in some order.)
 //
 // *Rest.* Agents rest on different cells forever: a CTS agent on its destination, an MG agent on
 // one of its own tasks. (An idle agent can rest anywhere, and a place for it is always left.) If

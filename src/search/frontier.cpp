@@ -31,7 +31,7 @@ void Frontier::push(NodePtr node) {
   push_locked(std::move(node));
 }
 
-// Order of the nodes of one rank, for heaps with the best node in front. The function returns
+// Order of the nodes of one rank, for heaps with the best node in front. The comparator returns
 // whether `a` is worse than `b`.
 auto Frontier::order_in(Cost rank) const {
   return [newest_first = rank == proven_](const Open& a, const Open& b) {
@@ -168,7 +168,7 @@ Cost Frontier::evicted_bound() const {
   return evicted_bound_;
 }
 
-// Atomic: between the two changes there would be neither nodes nor an evicted bound.
+// Under one lock, so that no thread sees the frontier with neither nodes nor an evicted bound.
 void Frontier::restart(std::span<const NodePtr> roots, Cost proven) {
   const std::lock_guard lock(mutex_);
   GROVE_ASSERT(open_.empty() && taken_.empty(), "a restart requires that no node is live");

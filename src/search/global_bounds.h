@@ -19,8 +19,9 @@ class GlobalBounds {
   // `instance` must outlive this object.
   GlobalBounds(const Instance& instance, Omega omega) : instance_(instance), omega_(omega) {}
 
-  // Offers a plan from any source: a conflict-free node, a heuristic, a file. If the plan is
-  // cheaper than the incumbent, it is re-checked from scratch and becomes the incumbent. Returns
+  // Offers a plan from any source: a conflict-free node, a heuristic, a file. If there is no
+  // incumbent or the plan is cheaper, the plan is re-checked from scratch. It then becomes the
+  // incumbent, unless another thread has posted a plan of at most its cost in the meantime. Returns
   // whether it did. Throws std::logic_error if the checker refuses the plan, because then the code
   // that made it has a bug.
   bool post(Plan plan);

@@ -2,10 +2,9 @@
 // Group bounds that are sent together with nodes.
 //
 // *Problem.* A rank that receives a node without the cached bounds of its pairs has to compute all
-// of them again. This takes as much effort as at the root, whereas the expansion of the node's
-// parent left only one or two pairs to examine. With many workers that expand few nodes each, this
-// would be most of their effort. A node is therefore sent with the bounds that are known for it
-// (*findings*).
+// of them again. This takes as much effort as at the root; with the cached bounds only one or two
+// pairs are left to examine. If many workers expanded few nodes each, it would be most of their
+// effort. A node is therefore sent with the bounds that are known for it (*findings*).
 //
 // *Claim: a finding holds at the receiver as it does at the sender.* It is a statement about agents
 // under sets of constraints and about nothing else, and both sides have the same constraints; see

@@ -22,15 +22,15 @@ struct GroupBound {
 };
 
 // Returns the entries of `memory` on pairs and groups of agents at `nodes`, each entry at one node
-// where it holds. Looks up all pairs of agents at the first node, and at each later node only the
-// pairs with a subproblem that no earlier node has. It therefore omits entries whose subproblems
+// where it holds. Looks up all pairs and groups at the first node, and at each later node only
+// those with a subproblem that no earlier node has. It therefore omits entries whose subproblems
 // all occur at earlier nodes, but never together at one of them.
 std::vector<GroupBound> group_bounds_of(std::span<const NodePtr> nodes, SharedCache& memory);
 
 // Merges `findings`, received from another worker or rank, into `memory`. Ignores findings about a
 // node that is nullptr. Throws std::invalid_argument if a finding names a node or an agent that
-// does not exist, if its agents are not in ascending order, or if its excess is negative; findings
-// before it may have been merged.
+// does not exist, if it has fewer than two agents or they are not in ascending order, or if its
+// excess is negative; findings before it may have been merged.
 void merge(std::span<const GroupBound> findings, std::span<const NodePtr> nodes,
            SharedCache& memory);
 

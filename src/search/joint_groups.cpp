@@ -10,8 +10,8 @@
 // least `max_excess` + 1 more. The constraints are those of the agents' subproblems
 // (subproblem_table.h); the result does not depend on other agents.
 //
-// Graphs grow with `max_excess`, and most groups have a small excess. So `max_excess` starts close
-// to the known excess, and its distance from it doubles in each round.
+// Graphs grow with `max_excess`, and most groups have a small excess. So `max_excess` starts at the
+// known excess + 1, and its distance from the known excess doubles in each round, up to `slack`.
 //
 // *Where it helps.* Splits solve nearly all pairs of agents that neither turn nor execute tasks,
 // and few of the other pairs. *Measured* on room-32-32-4 with 40 agents: if joint search is also

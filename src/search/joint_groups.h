@@ -26,12 +26,15 @@ class JointGroups {
 
   // Raises `known`, the excess of the agents `group` over their paths at the node of `view`, under
   // the constraints of that node. The agents are in the scope of `view` and in ascending order.
-  // Stops at an excess above `slack`. Does nothing for more than Tuning::joint_group_agents agents.
-  // Returns false if a limit was reached.
+  // Ends when the excess is exact or above `slack`, or earlier at a limit of effort
+  // (Tuning::joint_group_work) or size, with a valid bound. Does nothing for more than
+  // Tuning::joint_group_agents agents. Returns false if a limit of the run was reached or the costs
+  // to go of an agent would become too large.
   bool solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
              const Limits& limits, ExcessBound& known);
 
-  // Joint states expanded so far, and the effort of all calls in the unit of search/work.h.
+  // Joint states expanded so far, and the effort of all calls, including all time-expanded graphs
+  // of the planner, in the unit of search/work.h.
   std::int64_t states() const { return states_; }
   std::int64_t work() const;
 

@@ -14,9 +14,9 @@
 
 namespace grove::detail {
 
-// MDDs of recently requested subproblems, in two generations. An MDD is *young* if it was requested
-// since the last trim() that took effect. It is *old* if its last request was between that trim()
-// and the previous one that took effect. Thread-safe.
+// MDDs of recently requested subproblems, in two generations. An MDD is *young* if add() was called
+// for it since the last trim() that took effect. It is *old* if the last such call was between that
+// trim() and the previous one that took effect. Thread-safe.
 class MddCache {
  public:
   using Set = std::shared_ptr<const Mdd>;
@@ -30,18 +30,20 @@ class MddCache {
 
   // Returns nullptr if the MDD is not cached.
   Set find(SubproblemTable::Id id) const;
-  // Adds the MDD of a requested subproblem as young; an old MDD becomes young.
+  // Adds the MDD of a requested subproblem as young. An old MDD becomes young, so call add() also
+  // for an MDD that find() has returned.
   void add(SubproblemTable::Id id, const Set& set);
 
   // Builds the MDD of the subproblem (`agent`, `order`, `constraints`), whose least cost is `cost`.
-  // The MDD is empty if it has more than `max_nodes` nodes. Returns nullptr if a limit was
-  // reached. `planner` belongs to the calling thread.
+  // The MDD is empty if it would be too large for `max_nodes` (MddBuilder::Outcome::kTooLarge).
+  // Returns nullptr if a limit was reached or the costs to go would become too large. `planner`
+  // belongs to the calling thread.
   static Set make(PathPlanner& planner, AgentIndex agent, const AgentSequencing& order,
                   std::span<const Constraint> constraints, Time cost, std::size_t max_nodes,
                   const Limits& limits);
 
-  // If the young generation has reached its limit, drops the old generation and makes the young one
-  // old.
+  // If the young generation has reached its limit and no other thread is trimming, drops the old
+  // generation and makes the young one old.
   void trim();
 
   // Memory in use, in bytes (approximate).

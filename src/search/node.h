@@ -89,10 +89,10 @@ struct NodeDelta {
 };
 
 // A node of a constraint tree (CBS; Sharon et al. 2015). It inherits its parent's constraints and
-// paths, and stores at most one additional constraint and the paths that changed. These are packed
-// behind the object. A kRestBy constraint on one agent also bars all other agents from the cell
-// from its `end` on. Allocated in its tree's pool; about 150 bytes if paths have 150 steps.
-// Immutable: any thread may read it.
+// paths, and stores at most one additional constraint and the paths that changed. The paths are
+// packed behind the object. A kRestBy constraint on one agent also bars all other agents from the
+// cell from its `end` on. A node is allocated in its tree's pool; it takes about 150 bytes if paths
+// have 150 steps. Immutable: any thread may read it.
 class Node {
  public:
   // The root of `tree`, without constraints.
@@ -117,8 +117,8 @@ class Node {
   const Node* parent() const { return parent_.get(); }
   // The constraint that this node adds to those of its parent; agent -1: none.
   const AgentConstraint& added() const { return added_; }
-  // Calls visit(agent, packed steps) for each path that differs from the parent's. The packed steps
-  // are valid as long as the node exists.
+  // Calls visit(agent, packed steps) for each path that this node stores. The packed steps are
+  // valid as long as the node exists.
   template <class Visit>
   void for_each_path(Visit visit) const {
     const auto* word = reinterpret_cast<const std::uint64_t*>(this + 1);
@@ -136,8 +136,8 @@ class Node {
              std::vector<Path>& paths) const;
   // Appends the constraints on `agent` at this node. O(depth).
   void constraints(AgentIndex agent, std::vector<Constraint>& constraints) const;
-  // Sets constraints[agent] to the constraints on each agent at this node. Resizes `constraints` to
-  // the number of agents.
+  // Sets each constraints[agent] to the constraints on that agent at this node. Resizes
+  // `constraints` to the number of agents.
   void constraints(std::vector<std::vector<Constraint>>& constraints) const;
 
  private:

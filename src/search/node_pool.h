@@ -17,10 +17,10 @@ namespace grove::detail {
 // a limit and the answer. The pool must outlive every use of its nodes. Thread-safe.
 //
 // Small blocks are cut from chunks; their sizes are multiples of 8 bytes and they have no headers.
-// A released block is reused for the next node of its size, because nodes have few different sizes,
-// and the mix of sizes stays the same over time. Chunks return to the system only when the pool is
-// destroyed. After an eviction, therefore, bytes() falls but the resident set does not: control
-// memory by bytes().
+// A released block is reused only for nodes of its size. This suffices, because nodes have few
+// different sizes, and the mix of sizes stays the same over time. Chunks return to the system only
+// when the pool is destroyed. After an eviction, therefore, bytes() falls but the resident set does
+// not: control memory by bytes().
 class NodePool {
  public:
   NodePool() = default;

@@ -20,7 +20,7 @@ struct NodeRecord {
 
   std::uint32_t tree = 0;                    // number of its tree
   std::vector<AgentConstraint> constraints;  // in order of depth, from the root down
-  std::vector<Walk> paths;                   // those that differ from the root's, in order of agent
+  std::vector<Walk> paths;                   // those stored below the root, in order of agent
   Cost cost = 0;
   Cost bound = 0;
   std::uint32_t conflicts = 0;
@@ -28,16 +28,16 @@ struct NodeRecord {
   friend bool operator==(const NodeRecord&, const NodeRecord&) = default;
 };
 
-// Converts a node to a record. O(depth + total length of the paths).
+// Converts a node to a record.
 NodeRecord record_of(const Node& node);
 
-// Throws std::invalid_argument if `record` cannot belong to `instance`: it names an agent or place
-// that does not exist, or has a path that is not a walk, or a bound below the root's bound or below
-// its own cost.
+// Throws std::invalid_argument if `record` names an agent or place that does not exist, if a path
+// has the wrong number of words or is not a walk from its agent's start, or if the bound is below
+// the root's bound or below the cost of the record. Detects no other error.
 void check(const NodeRecord& record, const Node& root, const Instance& instance);
 
 // Recreates the node below `root`, the root of its tree or of a tree that fixes the same. The nodes
-// between them are new and hold only the node's constraints. Throws as check() does.
+// between them are new; each adds one of the constraints. Throws as check() does.
 NodePtr node_of(const NodeRecord& record, const NodePtr& root, const Instance& instance);
 
 }  // namespace grove::detail

@@ -21,7 +21,7 @@ namespace grove::detail {
 // node's constraints. One thread at a time.
 class NodeView {
  public:
-  // Per-agent data that is other from one node to the next, because most agents have the same
+  // Per-agent data that is kept from one node to the next, because most agents have the same
   // constraints at both nodes.
   class AgentCache {
     friend class NodeView;
@@ -46,7 +46,7 @@ class NodeView {
   void enter(const NodePtr& node, std::span<const AgentIndex> scope);
   // Drops the reference to the node.
   void leave() { node_ = nullptr; }
-  // Swaps the other data with `other`. Call it between two nodes. One view can thus serve several
+  // Swaps the kept data with `other`. Call it between two nodes. One view can thus serve several
   // workers as if each had its own view: the caller stores the data of each worker and swaps it in.
   void swap_cache(AgentCache& other) { std::swap(other, agent_cache_); }
 
@@ -61,7 +61,8 @@ class NodeView {
     return agent_cache_.constraints[agent];
   }
   SubproblemTable::Id subproblem(AgentIndex agent);
-  // The constraints on `agent` and `more`, in canonical order. Valid until the next call.
+  // The constraints on `agent`, which must be in scope, and `more`, in canonical order. Valid until
+  // the next call of constraints_with().
   std::span<const Constraint> constraints_with(AgentIndex agent, const Constraint& more);
 
   // paths(): by AgentIndex, the paths of the agents in scope, at the node or after reroute(); other
@@ -74,8 +75,8 @@ class NodeView {
   bool conflict_free() const { return conflicts_.empty(); }
   // The first conflict of agents `a` and `b`. Returns nullptr if they have none.
   const Conflict* conflict_between(AgentIndex a, AgentIndex b) const;
-  // Replaces `agents` by the agents in scope whose path violates the constraint that `constraint`
-  // implies for them. They must be re-planned.
+  // Replaces `agents` by the agents in scope that must be re-planned under `constraint`: those
+  // whose path violates the constraint that it implies for them.
   void affected_agents(const AgentConstraint& constraint, std::vector<AgentIndex>& agents) const;
 
   // Replaces the path of each agent in `agents` by the one at the same position in `paths`, which

@@ -15,7 +15,7 @@ namespace grove::detail {
 // their bytes are equal.
 void pack(std::span<const Constraint> constraints, std::string& bytes);
 
-// Result of pack(), which can be compared, stored and sent. It cannot be unpacked.
+// Result of pack(), which can be compared, stored and sent. No function unpacks it.
 struct PackedConstraints {
   PackedConstraints() = default;  // no constraints
   explicit PackedConstraints(std::span<const Constraint> constraints) { pack(constraints, bytes); }

@@ -13,8 +13,8 @@
 namespace grove::detail {
 namespace {
 
-// Codes of a plain grid. On a grid of one column, left and up are the same offset; both codes
-// decode to the same cell.
+// Codes of a plain grid. On a grid of one column, horizontal and vertical moves have the same
+// offsets, so two codes decode to the same cell.
 class Offsets {
  public:
   static constexpr std::uint32_t kBits = 3;

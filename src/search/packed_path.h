@@ -20,10 +20,10 @@ struct PackedSteps {
 
   // The path's cost: its number of steps.
   Time cost() const { return static_cast<Time>(steps); }
-  // Overwrites `path`, which keeps its capacity.
+  // Replaces `path` by the states from `start` on; reuses its memory.
   void unpack(const World& world, State start, Path& path) const;
-  // Tests whether the steps are a walk from `start` in this world. Steps that pack() wrote always
-  // are; test all others before unpack().
+  // Tests whether the steps are a walk from `start` in this world. Steps that pack() wrote need no
+  // test; test all others before unpack().
   bool is_walk(const World& world, State start) const;
 };
 

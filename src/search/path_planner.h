@@ -47,12 +47,12 @@ class PathPlanner {
   // `order` allows.
   Sequence sequence(AgentIndex agent, const AgentSequencing& order, const Path& path);
 
-  // Number of calls of find() so far, and of the labels that these expanded.
+  // Number of calls of find() so far, and number of labels that they expanded.
   std::int64_t calls() const { return calls_; }
   std::int64_t expanded() const { return fixed_.expanded() + free_->expanded(); }
-  // MDD nodes built so far.
+  // Effort of MDDs so far; see MddBuilder::nodes().
   std::int64_t optimal_nodes() const { return optimal_.nodes(); }
-  // Nodes of time-expanded graphs built so far.
+  // Nodes of time-expanded graphs expanded so far.
   std::int64_t timed_nodes() const { return timed_.nodes(); }
   // Effort of calls and labels; see work.h.
   std::int64_t work() const { return expanded() + work::kPerCall * calls_; }
@@ -67,7 +67,7 @@ class PathPlanner {
   TimeExpandedGraphs timed_;
   AgentStopsCache& stops_;
   bool repeatable_;
-  std::vector<std::unique_ptr<SequenceStages>> free_goals_;  // by AgentIndex, for its last class
+  std::vector<std::unique_ptr<SequenceStages>> free_goals_;  // by AgentIndex, for the last class
 };
 
 }  // namespace grove::detail

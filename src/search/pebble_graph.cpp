@@ -3,7 +3,8 @@
 // tree joins a node with one of its ancestors. It lies in the same block as the tree edge from the
 // deeper of the two nodes to its parent. Each edge, whether in the tree or not, is therefore
 // counted for the block of its deeper end. The tree edges of a block connect all of it, so the
-// block is bipartite if each of its other edges joins a node of even depth and one of odd depth.
+// block is bipartite if and only if each of its other edges joins a node of even depth and one of
+// odd depth.
 #include "search/pebble_graph.h"
 
 #include <algorithm>
@@ -73,7 +74,8 @@ void PebbleGraph::number(const World& world, Place root) {
 
 // The second loop runs backwards, so that each node is complete before its parent.
 void PebbleGraph::find_blocks() {
-  std::vector<PebbleNode> highest(size());  // by node: least node adjacent to its subtree
+  // By node: the least node in its subtree or joined to the subtree by an edge outside the tree.
+  std::vector<PebbleNode> highest(size());
   for (PebbleNode node = 0; node < size(); ++node) {
     highest[node] = node;
     for (const PebbleNode other : neighbors(node))

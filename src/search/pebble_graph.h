@@ -35,8 +35,8 @@ class PebbleGraph {
   bool is_bridge(PebbleNode a, PebbleNode b) const {
     return a == parent(b) ? is_bridge_to_parent(b) : b == parent(a) && is_bridge_to_parent(a);
   }
-  // The 2-edge-connected component of a node. Two nodes are in the same component if and only if a
-  // closed walk that uses no edge twice passes through both.
+  // The number of the 2-edge-connected component of a node. Two nodes are in the same component if
+  // and only if a closed walk that uses no edge twice passes through both.
   PebbleNode region(PebbleNode node) const { return regions_[node]; }
   // True if the region of `node` has other nodes, so that a cycle passes through `node`.
   bool is_on_ring(PebbleNode node) const { return is_on_ring_[node] != 0; }

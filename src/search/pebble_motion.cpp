@@ -5,7 +5,8 @@
 // configuration do not depend on headings, task execution or earlier steps. *Claim: there is no
 // plan if, from the configuration of the starts (reach.h),*
 // - some agent must visit a place, or has a goal, on which it is in no reachable configuration; or
-// - all agents have goals and the configuration of the goals is not reachable.
+// - all agents of a connected component have goals, and the configuration of these goals is not
+//   reachable.
 //
 // *Converse.* If every step can be undone and all agents have goals, a plan exists in all other
 // cases. The agents can pass, one after the other, through configurations in which they are on
@@ -144,7 +145,7 @@ std::vector<AgentIndex> agents_by_place(const Instance& instance) {
   return on;
 }
 
-// `on`: by place.
+// `on`: the agent that starts on each place, or kNoAgent.
 ComponentAgents agents_on(const std::vector<Place>& part, const Instance& instance,
                           const std::vector<AgentIndex>& on) {
   std::vector<AgentIndex> agents;

@@ -13,8 +13,9 @@ namespace grove::detail {
 // distances.complete(). Immutable: any thread may read it.
 struct Problem {
   // `threads`: number of threads that compute the distances. `known`: distance fields of an earlier
-  // problem to share, or nullptr. `arrays`: arrays of array_layout() in memory that is shared with
-  // other processes, or nullptr. `the_instance`, `known` and `arrays` must outlive this object.
+  // problem, of which this object shares those that apply, or nullptr. `arrays`: arrays of
+  // array_layout() in memory that is shared with other processes, or nullptr. `the_instance` and
+  // `arrays` must outlive this object.
   Problem(const Instance& the_instance, const Limits& limits, int threads = 1,
           const DistanceFields* known = nullptr, const SharedArrays* arrays = nullptr)
       : instance(the_instance),

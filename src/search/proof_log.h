@@ -17,8 +17,8 @@ namespace grove::detail {
 
 // Key of the constraints of a node: a hash of its tree and of its constraints in the order in which
 // they were added. It is the same in every process, so the logs of several processes can be merged.
-// Two different nodes have the same key with probability 2^-64; the only effect is that the
-// certificate is refused.
+// Two different lists of constraints have the same key with probability 2^-64; the only effect is
+// that the certificate is refused.
 using ProofKey = std::uint64_t;
 inline constexpr ProofKey kNoProof = 0;
 
@@ -51,8 +51,8 @@ struct ProofSplit {
   ProofKey lemma = kNoProof;    // proves a split on costs; other splits: kNoProof
 };
 
-// Statement that these agents together cost at least `bound` under these constraints, which are in
-// canonical order for each agent.
+// Statement that these agents together cost at least `bound` under these constraints: for each
+// agent, first its sequence class (kStopIs, kStopIsNot), then its constraints in canonical order.
 struct ProofLemma {
   std::vector<AgentIndex> agents;  // in ascending order
   std::vector<AgentConstraint> constraints;

@@ -15,11 +15,12 @@ using PebbleConfiguration = std::vector<AgentIndex>;
 inline constexpr AgentIndex kNoAgent = -1;
 
 // The configurations that are reachable from a start configuration by any moves of the agents, at
-// any cost.
+// any cost. A result of false is proven. A result of true rests on published theorems; no answer of
+// Grove relies on it.
 class ReachableConfigurations {
  public:
   virtual ~ReachableConfigurations() = default;
-  // Returns whether some reachable configuration has on `to` the agent that starts on `from`.
+  // Returns whether the agent that starts on `from` is on `to` in some reachable configuration.
   virtual bool has(PebbleNode from, PebbleNode to) const = 0;
   // Returns whether this configuration is reachable. It must have the same agents as the start.
   virtual bool has(const PebbleConfiguration& arrangement) const = 0;

@@ -8,10 +8,10 @@
 //
 // *Definitions.* Agents change their order at *crossings*, which are regions of nodes on rings, and
 // single nodes with three or more neighbours. With two free nodes at a crossing any two agents
-// there can change places. One free node suffices on a ring if agents may follow each other: all
-// agents on the ring go round while it holds one agent more or fewer than at first. So a crossing
-// has a *need* of 1 or 2 free nodes. The crossings are connected by *ways*, which are paths of
-// nodes with two neighbours each.
+// there can change places. One free node suffices on a ring if agents may follow each other: the
+// agents on the ring rotate while the ring holds one agent more or fewer than at first. So a
+// crossing has a *need* of 1 or 2 free nodes. The crossings are connected by *ways*, which are
+// paths of nodes with two neighbours each.
 //
 // Consider an agent on a way, t steps from the crossing at the beginning of the way, with b free
 // nodes on that side of it. While the agent is on the way (including that crossing), t - b is
@@ -53,8 +53,8 @@ namespace {
 
 constexpr PebbleNode kStuck = -1;
 
-// A way from a crossing, or a dead end, to the next one. Ways between crossings are stored twice,
-// once per direction.
+// A way from a crossing to the next crossing or dead end, or between two dead ends. Ways between
+// crossings are stored twice, once per direction.
 struct Way {
   PebbleNode from = PebbleGraph::kNone;  // kNone: the graph consists of this way only
   std::vector<PebbleNode> nodes;         // includes the other end
@@ -63,7 +63,7 @@ struct Way {
   PebbleNode before_end() const { return nodes.size() > 1 ? nodes[nodes.size() - 2] : from; }
 };
 
-// The part of the analysis that depends only on the graph and the number of free nodes.
+// The part of the analysis that does not depend on which agent is on which node.
 class Crossings {
  public:
   Crossings(const PebbleGraph& board, int free, bool may_follow)
@@ -177,8 +177,8 @@ class Membership {
  private:
   const PebbleGraph& board() const { return crossings_.board(); }
 
-  // Returns whether the agent on the crossing `node` is stuck on the way that starts with `next`,
-  // which is so if all free nodes are on that side.
+  // Returns whether the agent on the crossing `node` is stuck on the way that starts with `next`.
+  // This is so if the crossing needs two free nodes and all free nodes are on the side of `next`.
   bool is_held_by(PebbleNode node, PebbleNode next) const {
     return crossings_.need(node) == 2 && board().is_bridge(node, next) &&
            board().beyond(node, next, free_) == crossings_.free();
@@ -266,12 +266,11 @@ class ReachWithRoom : public ReachableConfigurations {
   }
 
  private:
-  // For a node that is no crossing, its way; for an agent that is stuck on a crossing, the way on
-  // which it is stuck. Also the number of nodes of the graph that come before the node, as seen
-  // along the way.
+  // The way that contains a node or, for a crossing with a stuck agent, the way on which the agent
+  // is stuck.
   struct Spot {
     std::size_t way = 0;
-    int nodes_before = 0;
+    int nodes_before = 0;  // nodes of the graph before the node, along the way; not for crossings
   };
 
   const Way& held_on(PebbleNode node) const { return crossings_.ways()[spots_[node].way]; }

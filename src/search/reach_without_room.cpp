@@ -3,10 +3,11 @@
 // all occupied, or a graph with a single free node on which agents may not follow each other.
 //
 // On a ring no agent passes another. If all nodes are occupied, the only steps are rotations of
-// whole cycles. These use no bridge, so each region between bridges can be treated as a separate
-// graph. If one node is free and agents may not follow, only the free node moves. When it returns
-// to its place, it has changed the order only within single blocks. With the free node at the root,
-// the agents of a block stay on the nodes of that block other than the one nearest to the root.
+// whole cycles, and there are none if agents may not follow each other. Rotations use no bridge, so
+// each region between bridges can be treated as a separate graph. If one node is free and agents
+// may not follow, only the free node moves. When it returns to its place, it has changed the order
+// only within single blocks. With the free node at the root, the agents of a block stay on the
+// nodes of that block other than the one nearest to the root.
 //
 // In such a region or block:
 // - On a ring the cyclic order of the agents is invariant.
@@ -42,7 +43,7 @@ bool same_agents(std::vector<AgentIndex> a, std::vector<AgentIndex> b) {
   return a == b;
 }
 
-// Tests whether both are the same cyclic order, free nodes aside.
+// Tests whether both are the same cyclic order of agents; free nodes do not count.
 bool are_in_the_same_order(std::vector<AgentIndex> a, std::vector<AgentIndex> b) {
   std::erase(a, kNoAgent);
   std::erase(b, kNoAgent);
@@ -67,7 +68,7 @@ bool is_even(const std::vector<AgentIndex>& a, const std::vector<AgentIndex>& b)
   return even;
 }
 
-// A few nodes, of which at most one is free. Searches all reachable configurations.
+// Exhaustive search of the configurations of a few nodes, at most one of which is free.
 class SmallPart {
  public:
   SmallPart(const PebbleGraph& board, std::vector<PebbleNode> nodes) : nodes_(std::move(nodes)) {
@@ -98,7 +99,7 @@ class SmallPart {
   }
 
  private:
-  // Finds the cycles on which the first node has the least number.
+  // Extends `way` to all cycles on which its first node has the least number.
   void find_cycles(std::vector<std::size_t>& way) {
     for (const std::size_t next : neighbors_[way.back()]) {
       if (next == way.front() && way.size() > 2) circles_.push_back(way);
@@ -197,7 +198,7 @@ class OneFreeReach : public ReachableConfigurations {
   const PebbleConfiguration start_;
 };
 
-// No node is free.
+// No node is free, and agents may follow each other.
 class FullReach : public ReachableConfigurations {
  public:
   FullReach(const PebbleGraph& board, const PebbleConfiguration& start)

@@ -35,8 +35,8 @@ struct CacheDelta {
   std::vector<DependencyTable::Group> groups;
 };
 
-// Entries that were added to a SharedCache or improved since the last call of take_new_entries(). A
-// value.
+// Entries that were added to a SharedCache or improved since the last call of take_new_entries().
+// Their subproblem numbers are valid for that cache.
 struct NewEntries {
   std::vector<std::pair<SubproblemTable::Id, SubproblemTable::CostBound>> costs;
   std::vector<CacheDelta::Pair> pairs;
@@ -100,7 +100,8 @@ class WorkerCache {
   // Number of the shared cache. Subproblem numbers stay valid as long as this number is the same.
   std::int64_t numbering() const { return common_->number; }
 
-  // id(), known() and merge(): like the methods of SubproblemTable.
+  // id() and known(): like the methods of SubproblemTable. merge() replaces the worker's own entry,
+  // so `known` must be at least as strong as known(id).
   Id id(AgentIndex agent, const AgentSequencing& order, std::span<const Constraint> constraints) {
     ++asked_;
     return common_->subproblems.id(agent, order, constraints);
@@ -115,13 +116,14 @@ class WorkerCache {
   void merge(Id id, SubproblemTable::CostBound known) { found_.costs[id] = known; }
 
   // The MDD of a subproblem, which is built if it is not cached; empty if it would be too large.
-  // Returns nullptr if a limit was reached. Valid until take_delta() or
-  // use_shared_cache().
+  // Returns nullptr if a limit was reached or the costs to go would become too large. Valid until
+  // take_delta() or use_shared_cache().
   const Mdd* paths(Id id, AgentIndex agent, const AgentSequencing& order,
                    std::span<const Constraint> constraints, Time cost, const Limits& limits);
 
-  // Like the methods of DependencyTable. partners() and groups_at() return entries in any order,
-  // possibly repeatedly.
+  // Like the methods of DependencyTable. of_pair() returns the worker's own entry if there is one;
+  // call merge_pair() at most once per pair between two calls of take_delta(). partners() and
+  // groups_at() report entries in any order, possibly repeatedly.
   DependencyTable::ExcessBound of_pair(Id first, Id second) const;
   void merge_pair(Id first, Id second, AgentIndex agent, DependencyTable::ExcessBound known);
   void partners(Id first, std::vector<DependencyTable::Partner>& partners) const;

@@ -23,6 +23,7 @@ class SequenceForest : public Forest {
  public:
   // `problem`, `limits` and `pool` must outlive the forest; `pool` holds the nodes of its trees.
   // The constructor computes the cost matrices; tables and sequences are computed on first use.
+  // Throws std::invalid_argument if `backend` is not built.
   SequenceForest(const Problem& problem, NodePool& pool, RtspBackend backend, const Limits& limits);
 
   Cost next_bound() const override;

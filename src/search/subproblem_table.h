@@ -27,7 +27,7 @@ struct AgentSubproblem {
 // Numbers the low-level subproblems and caches a cost bound for each. A subproblem is an agent with
 // its sequence class and a set of constraints. Most nodes of a constraint tree query subproblems
 // that other nodes have queried before. Keys are compared in full, so a hash collision costs time
-// but never changes a result. The cost of a subproblem depends on nothing else, so the cache
+// but never changes a result. The cost of a subproblem depends only on its key, so the cache
 // changes no result. Thread-safe.
 class SubproblemTable {
  public:
@@ -40,8 +40,8 @@ class SubproblemTable {
     friend bool operator==(const CostBound&, const CostBound&) = default;
   };
 
-  // The number of a subproblem, which is added if it is new. `constraints` must be in canonical
-  // order; see canonical(). `order` must outlive this object.
+  // The number of a subproblem, which is added if it is new. `order` is compared by address.
+  // `constraints` must be in canonical order; see canonical(). `order` must outlive this object.
   Id id(AgentIndex agent, const AgentSequencing& order, std::span<const Constraint> constraints);
   Id id(const AgentSubproblem& subproblem);
 

@@ -19,13 +19,13 @@ enum class Technique : std::uint8_t {
   kLacam,            // LaCAM for first plans on dense instances
   kStrongBranching,  // choose the split that raises the bounds of the children most
   kBypass,           // instead of splitting, use a path of equal cost with fewer conflicts
-  kFewestConflicts,  // low level: of the paths of equal cost, one with fewest conflicts
+  kFewestConflicts,  // low level: of the cheapest paths, one with the fewest conflicts
   kTarget,           // split on the time from which an agent rests
   kCorridor,         // split on which of two agents passes a corridor first
   kWdg,              // WDG heuristic: bound from pairs that must cost more together
-  kJointMdd,         // WDG: detect such pairs by comparing their MDDs
-  kCostSplits,       // split on which agent of such a pair costs more
-  kClusters,         // WDG: bounds of groups in which no pair must cost more
+  kJointMdd,         // WDG: detect pairs that must cost more by comparing MDDs
+  kCostSplits,       // split on which agent costs more, if two cannot both keep their costs
+  kClusters,         // WDG: bounds of groups of three or more conflicting agents
   kEstimates,        // if w > 0 and there is no plan yet: take every second node by estimate
   kJointSearch,      // A* over joint states, if there are few agents and places
   kLagrangian,       // Lagrangian bound, if there are many agents

@@ -81,8 +81,8 @@ Trees::Order Trees::order_of(AgentIndex agent, const TreeRecord::Order& record) 
   return known.emplace_back(std::make_shared<const AgentSequencing>(made(agent, record)));
 }
 
-// Least cost of a path through the goals. `known` is the cost of a known path; it is returned
-// without a search if the distances prove that it is the least.
+// Least cost of a path through the goals; kNever if there is none. `known` is the cost of a known
+// path; it is returned without a search if the distances prove that it is the least.
 Time Trees::min_cost(const GoalSequence& goals, std::uint32_t known) {
   const Time distance = goals.distance(goals.start(), 0);
   if (distance == static_cast<Time>(known)) return distance;

@@ -31,8 +31,9 @@ struct TreeRecord {
 // Converts a tree to a record. O(total length of the paths).
 TreeRecord record_of(const Tree& tree);
 
-// Trees that another forest of the same instance has instantiated, recreated from records. Trees
-// with equal orders share them. Must outlive the nodes of its trees. One thread at a time.
+// Trees that another forest of the same instance has instantiated, recreated from records. Equal
+// orders of an agent are shared by all trees. Must outlive the nodes of its trees. One thread at a
+// time.
 class Trees {
  public:
   // All arguments must outlive this object. `stops` may be shared with other objects of the same
@@ -41,10 +42,11 @@ class Trees {
   Trees(const Problem& problem, AgentStopsCache& stops, NodePool& pool);
 
   // Recreates the tree with this number and returns its root. Throws std::invalid_argument, and
-  // adds nothing, if the record cannot belong to this instance. This is so if the number of agents
-  // or stops is wrong, or if a path is not a walk from its agent's start to a place where the agent
-  // may rest, does not visit the stops in their order, or is not shortest for that order. For a
-  // class that leaves the order open, it is not checked that no other order is better.
+  // adds no tree, if the record cannot belong to this instance. This is so if the number of agents
+  // is wrong, if a fixed order does not hold each stop once, or if a path is not a walk from its
+  // agent's start to a place where the agent may rest, does not visit the stops in their order, or
+  // is not shortest for that order. For a class that leaves the order open, it is not checked that
+  // no other order is better.
   NodePtr add(const TreeRecord& record, std::uint32_t number);
 
   std::size_t size() const { return trees_.size(); }

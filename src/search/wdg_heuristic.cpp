@@ -13,8 +13,9 @@
 // pruned and counts as an excess of slack + 1.
 //
 // *Joint MDDs.* Before that search, the MDDs of the two agents are compared
-// (planning/joint_mdd_search.cpp). If some pair of their paths does not collide, the excess is 0.
-// If all pairs collide, the excess is at least 1, even if no single conflict shows it.
+// (planning/joint_mdd_search.cpp). If all pairs of their paths collide, the excess is at least 1,
+// even if no single conflict shows it. If some pair does not collide, the excess is 0, provided
+// that agents may follow each other, because the comparison ignores following conflicts.
 //
 // *Splits on costs.* If a and b cannot both keep their costs A and B, then in every plan a comes to
 // rest after A or b comes to rest after B. An agent with a destination comes to rest only there, so
@@ -28,7 +29,7 @@
 // conflict is better: with 20 agents in rooms, splits on costs needed 1 to 8 times as many nodes.
 // Splits on costs pay only together with paths of fewest conflicts, which show where the delay is
 // best spent. *Measured*: of five instances of 100 agents on empty-32-32 without tasks, w = 0, 5 s,
-// both together solve 5, either one without the other 1.
+// both together solve 5, either without the other solves 1.
 //
 // *Sum.* Two pairs that share an agent can owe their excesses to the same additional steps of that
 // agent, so their excesses must not be added up. covering_bound() computes the least total that
@@ -41,9 +42,9 @@
 // node count as well if they conflicted at another node with the same subproblems.
 //
 // *Groups.* Even if no pair must cost more, three or more agents may block each other whatever they
-// do. If they do not, splits can still move one conflict from pair to pair forever. The same
-// search on a connected group of such agents decides which of these is the case, and its result is
-// cached in the same way.
+// do. If they do not, splits can still move one conflict from pair to pair forever. The same search
+// on a connected group of up to six such agents decides whether they block each other, unless it
+// reaches its limits. Its result is cached in the same way.
 //
 // *Joint search.* If this search reaches its limit of expansions without a result, A* over the
 // joint states of the pair or group continues (joint_groups.cpp).
@@ -61,7 +62,7 @@ namespace grove::detail {
 namespace {
 
 constexpr std::ptrdiff_t kMaxGroupAgents = 6;     // agents of a group whose joint bound is computed
-constexpr std::int64_t kCoveringSteps = 100'000;  // group bounds examined per covering bound
+constexpr std::int64_t kCoveringSteps = 100'000;  // statements examined per covering bound
 
 }  // namespace
 
@@ -171,7 +172,8 @@ WdgHeuristic::Outcome WdgHeuristic::solve_conflicting_pairs(NodeView& view, Cost
   return Outcome::kDone;
 }
 
-// Tests whether both agents can keep their costs. Returns nullopt if a limit was reached.
+// Tests whether both agents can keep their costs. Returns nullopt where the caller must return
+// kStopped.
 std::optional<Dependence> WdgHeuristic::compare(NodeView& view, AgentIndex a, AgentIndex b,
                                                 const Limits& limits) {
   const Mdd* of_a = mdd(view, a, limits);
@@ -190,7 +192,7 @@ const Mdd* WdgHeuristic::mdd(NodeView& view, AgentIndex agent, const Limits& lim
                        limits);
 }
 
-// Bounds the excess of every group that conflicts although no pair of it must cost more.
+// Bounds the excess of the groups of groups_in_conflict() that have 3 to kMaxGroupAgents agents.
 WdgHeuristic::Outcome WdgHeuristic::solve_groups(NodeView& view, Cost slack, const Limits& limits) {
   for (const auto& group : groups_in_conflict(view)) {
     if (group.size() < 3 || std::ssize(group) > kMaxGroupAgents) continue;
@@ -205,8 +207,8 @@ WdgHeuristic::Outcome WdgHeuristic::solve_groups(NodeView& view, Cost slack, con
   return Outcome::kDone;
 }
 
-// Components of the graph of conflicts between agents without a known positive excess. Each
-// component is in ascending order.
+// Components of two or more agents in the graph of conflicting pairs without a known positive
+// excess. Each component is in ascending order.
 std::vector<std::vector<AgentIndex>> WdgHeuristic::groups_in_conflict(const NodeView& view) const {
   std::vector<AgentIndex> leader(static_cast<std::size_t>(agents_));
   std::iota(leader.begin(), leader.end(), 0);
@@ -235,7 +237,7 @@ std::vector<SubproblemTable::Id> WdgHeuristic::key(std::span<const AgentIndex> g
 }
 
 // Raises `known`, the excess of a pair or group, by splits and then by joint search. Returns false
-// if a limit was reached.
+// where the caller must return kStopped.
 bool WdgHeuristic::solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
                          std::int64_t max_expansions, const Limits& limits, ExcessBound& known) {
   if (!solve_by_splits(view.node(), group, slack, max_expansions, limits, known)) return false;
@@ -251,7 +253,8 @@ bool WdgHeuristic::solve_by_splits(const NodePtr& node, std::span<const AgentInd
                                    Cost slack, std::int64_t max_expansions, const Limits& limits,
                                    ExcessBound& known) {
   const Cost base = node->cost();
-  // If all branches are pruned because no path exists, the result holds for any cutoff.
+  // Without a cutoff a branch is pruned only if it has no path, so if all branches are pruned, the
+  // excess is infinite.
   const Cost closed = base + slack + 1 >= kInfiniteCost ? kInfiniteCost : slack + 1;
   const Cost known_before = known.excess;
   open_.clear();
@@ -321,8 +324,8 @@ void WdgHeuristic::leave() {
   pair_view_.leave();
 }
 
-// Collects each pair and group whose current subproblems have a known positive excess, once each.
-// The order does not depend on when the results became known.
+// Collects each pair and group whose current subproblems have a known positive excess, once, with
+// its greatest known excess. The order does not depend on when the results became known.
 void WdgHeuristic::collect(std::vector<GroupExcess>& statements) {
   for (AgentIndex a = 0; a < agents_; ++a) {
     partners_.clear();

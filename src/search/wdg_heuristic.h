@@ -24,11 +24,12 @@ enum class BoundingEffort : std::uint8_t {
 };
 
 // Weighted pairwise-dependency heuristic of CBS (WDG: Li et al., IJCAI 2019), with a cache that
-// serves all nodes. It also bounds larger groups that conflict although no pair of their agents
-// must cost more. The proof is at the head of wdg_heuristic.cpp. One thread at a time.
+// serves all nodes. It also bounds groups of three to six agents that are connected by conflicts of
+// pairs without a known positive excess. The proof is at the head of wdg_heuristic.cpp. One thread
+// at a time.
 class WdgHeuristic {
  public:
-  // `problem`, `planner` and `memory` must outlive this object.
+  // `problem`, `planner`, `memory` and options.proof must outlive this object.
   WdgHeuristic(const Problem& problem, const SearchOptions& options, PathPlanner& planner,
                WorkerCache& memory);
 
@@ -36,12 +37,13 @@ class WdgHeuristic {
     kDone,
     kUnfinished,  // Tuning::bound_work was reached, so the worker can do something else; the next
                   // call for the same node continues
-    kStopped,     // a limit was reached
+    kStopped,     // a limit was reached, or the costs to go of an agent would become too large
   };
 
   // Helps other workers that bound the same node with the same shared cache: bounds conflicting
-  // pairs, starting at the fraction `share` in [0, 1) of the list of pairs. Returns false if there
-  // was nothing left to do.
+  // pairs, starting at the fraction `share` in [0, 1) of the list of pairs. Returns whether it made
+  // low-level calls or joint searches; if not, nothing that takes effort was left to do, or a limit
+  // was reached.
   bool help(const NodePtr& node, NodeView& view, Cost cutoff, double share, const Limits& limits);
 
   // Sets `bound` to a proven lower bound on every plan that satisfies the constraints of `node`, or
@@ -52,9 +54,10 @@ class WdgHeuristic {
 
   // Appends the splits on costs, "a comes to rest later, or b does". It appends one for each pair
   // of agents that conflict at the node that `view` has entered, finish when they arrive, and are
-  // known to be unable to both keep their costs.
+  // known to be unable to both keep their costs. A split can occur repeatedly.
   void splits(NodeView& view, std::vector<Split>& splits);
-  // Key of the lemma that proves that such a split loses no plan. `view` has entered the node.
+  // Key of the lemma that proves that the split on costs `split` loses no plan. `view` has entered
+  // the node that is split.
   ProofKey why(NodeView& view, const Split& split);
 
   // Drops all references to nodes.
@@ -68,7 +71,7 @@ class WdgHeuristic {
   std::int64_t steps() const { return pair_view_.steps(); }
   // Like NodeView::swap_cache(), for the view for pairs and groups.
   void swap_cache(NodeView::AgentCache& cache) { pair_view_.swap_cache(cache); }
-  // The solver for groups by joint search.
+  // The joint search for pairs and groups.
   const JointGroups& joint_groups() const { return joint_groups_; }
   std::int64_t optimal_nodes() const { return pair_brancher_.optimal_nodes(); }
 

@@ -12,7 +12,7 @@ namespace grove::detail::work {
 // Rates for dividing the effort between tree search and primal search.
 inline constexpr std::int64_t kPerCall = 16;      // units per low-level call, besides its labels
 inline constexpr std::int64_t kStepsSeen = 4;     // path steps searched for conflicts, per unit
-inline constexpr std::int64_t kStepsMoved = 8;    // path steps put into or out of a table, per unit
+inline constexpr std::int64_t kStepsMoved = 8;    // path steps added or removed in tables, per unit
 inline constexpr std::int64_t kStatesPriced = 5;  // states of a congestion distance field, per unit
 
 // Rates that estimate the duration of an expansion: labels and calls as above, and the other
@@ -20,8 +20,8 @@ inline constexpr std::int64_t kStatesPriced = 5;  // states of a congestion dist
 // *Measured* on six instances of 10 to 80 agents: a unit takes 0.11 to 0.26 microseconds,
 // correlation 0.65 to 1.00. (With the rates above: 0.22 to 0.62 microseconds, correlation 0.49 to
 // 0.99. They leave out MDDs, which take most of the time of a worker whose cache is nearly empty.)
-// kPerGroup applies to groups that were compared in full; it was fitted when all groups of a list
-// were compared.
+// kPerGroup applies to groups that are compared in full or looked up; it was fitted when all groups
+// of a list were compared.
 inline constexpr double kPerOptimalNode = 0.55;
 inline constexpr double kPerJointPair = 0.85;
 inline constexpr double kPerSubproblem = 2;
