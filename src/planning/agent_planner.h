@@ -51,7 +51,7 @@ struct PathQuery {
 
 // Interface of an exact single-agent planner. Grove's own search uses FreeOrderSipp; the layer
 // `baselines` implements published planners. One thread at a time. An implementation keeps its
-// workspace between calls, so reuse it.
+// workspace between calls, so reuse the object.
 class AgentPlanner {
  public:
   AgentPlanner() = default;
@@ -60,10 +60,11 @@ class AgentPlanner {
   virtual ~AgentPlanner() = default;
 
   // Finds a path of least cost from the start at time 0 that realizes some sequence of the class
-  // and satisfies the constraints of `query`, if that cost is at most the cutoff. The path ends
-  // when the agent comes to rest: its cost is path.size() - 1. Writes `path` only on kFound. May
-  // widen the costs to go of `goals` (CostToGo::widen). Throws std::invalid_argument for a query
-  // that is invalid or that this planner does not support.
+  // and satisfies the constraints of `query`, if that cost is at most the cutoff. With
+  // inflation_percent or known_sequences_only the path may cost more than the least cost. The path
+  // ends when the agent comes to rest: its cost is path.size() - 1. Writes `path` only on kFound.
+  // May widen the costs to go of `goals` (CostToGo::extend). Throws std::invalid_argument for a
+  // query that is invalid or that this planner does not support.
   virtual PathOutcome find(SequenceStages& goals, const PathQuery& query, const Limits& limits,
                            Path& path) = 0;
 

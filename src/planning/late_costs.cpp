@@ -88,7 +88,8 @@ class LateCosts {
              [&](State state) { return stops_.to_rest(state) == 0; });
   }
 
-  // Raises the entries of `column` to the depth of the nearest state on `place` for which counts().
+  // Raises the entries of `row` in `column` to the depth of the nearest state on `place` that
+  // satisfies counts().
   template <class Counts>
   void raise_to(int row, int column, Place place, Counts counts) {
     Time depth = kNever;
@@ -106,8 +107,8 @@ class LateCosts {
   }
 
   // Quick test: can a leg that begins at `begin` on the stop reach some place only after the last
-  // time at which an agent may be there? It uses distances to the stop for those from it. If the
-  // two differ, the test may miss a leg, whose entry then remains the plain one.
+  // time at which an agent may be there? It uses distances to the stop in place of distances from
+  // it. If the two differ, the test may miss a leg, whose entry then remains the plain one.
   bool is_late(int stop, Time begin) const {
     return std::ranges::any_of(barred_, [&](State state) {
       const Time there = stops_.distance(state, stop);

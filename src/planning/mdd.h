@@ -68,8 +68,8 @@ class MddBuilder {
   enum class Outcome : std::uint8_t {
     kBuilt,
     kNone,      // proven: no path has exactly this cost
-    kTooLarge,  // more than `max_nodes` nodes, or (slot, stage) pairs reached
-    kStopped,   // a limit was reached
+    kTooLarge,  // more than `max_nodes` nodes, or more (slot, stage) pairs than that were reached
+    kStopped,   // a limit was reached, or the costs to go would become too large
   };
 
   // `world` must outlive this object.

@@ -63,9 +63,8 @@ inline constexpr Time kDropped = std::numeric_limits<Time>::max();
 // - may_end(progress, state): are all goals visited, and is this a state of rest? (The search tests
 //   the interval itself.)
 // - first_rest(): lower bound on the cost of every path;
-// - postponed_layer(progress, state, time, layer): the layer to which this label, popped in layer
-// `layer`,
-//   is postponed, or kDropped; a value of at most `layer` if it is not postponed;
+// - postponed_layer(progress, state, time, layer): the layer to which this label, popped in
+//   `layer`, is postponed, or kDropped; a value of at most `layer` if it is not postponed;
 // - can_be_gate(state, before, progress): can a label in `state` whose parent has progress `before`
 //   be a *gate*, i.e. dominate other labels?
 // - add_gate(state, before, progress, time, until): records a gate that dominates labels from
@@ -77,14 +76,14 @@ class SafeIntervalSearch {
   enum class End : std::uint8_t {
     kFound,
     kExhausted,  // no path exists except through labels that Goals dropped
-    kPaused,     // `pause_at` labels are expanded; call run() to continue
-    kStopped,    // a limit was reached
+    kPaused,     // expanded() has reached `pause_at`; call run() to continue
+    kStopped,    // a limit was reached, or there was no memory for labels
   };
 
   // `world` must outlive this object.
   explicit SafeIntervalSearch(const World& world) : world_(world), intervals_(world) {}
 
-  // Set both before begin(), and do not change them while the search runs.
+  // Set the intervals and the goals before begin(), and do not change them while the search runs.
   SafeIntervals& intervals() { return intervals_; }
   Goals& goals() { return goals_; }
   const World& world() const { return world_; }
@@ -95,8 +94,8 @@ class SafeIntervalSearch {
   void begin(State start, Progress progress, Time first_layer, const ConflictAvoidanceTable* others,
              const Limits& limits);
   // Continues until the search ends or expanded(), which counts all searches, is exactly
-  // `pause_at`. The count is exact so that the effort of a search does not depend on earlier
-  // searches.
+  // `pause_at`. (If it is at least `pause_at` already, expands one more label.) The count is exact
+  // so that the effort of a search does not depend on earlier searches.
   End run(std::int64_t pause_at);
   // The cost of the path found, and the path. Valid after kFound.
   Time cost() const { return finish_.time; }
