@@ -13,7 +13,7 @@
 // of one low-level call to the same target share it.
 //
 // *Limits.* If a target interval begins late, waiting for it makes one piece per cell for every
-// time step before its begin, as in the published code.
+// time step before its start, as in the published code.
 #include "baselines/time_interval_forest.h"
 
 #include <algorithm>
@@ -109,7 +109,7 @@ void TimeIntervalForest::reach_by_move(Tree& tree, Cell from, std::int32_t next)
   cover(tree, from, begin, end, next);
 }
 
-// Makes pieces for the times of [begin, end] that no piece covers yet.
+// Makes pieces for the safe times in [begin, end] that no piece covers yet.
 void TimeIntervalForest::cover(Tree& tree, Cell cell, Time begin, Time end, std::int32_t next) {
   if (begin > end) return;
   if (first_gap_[cell] == kUnseen) open_gaps(cell);

@@ -13,9 +13,9 @@ namespace grove::detail {
 
 // Statistics of a written certificate.
 struct Certificate {
-  Cost bound = 0;  // the proven lower bound; kInfiniteCost: there is no plan
-  std::int64_t splits = 0;
-  std::int64_t leaves = 0;
+  Cost bound = 0;           // the proven lower bound; kInfiniteCost: there is no plan
+  std::int64_t splits = 0;  // in the proof of the theorem, not in lemmas
+  std::int64_t leaves = 0;  // as `splits`
   std::int64_t lemmas = 0;
   std::int64_t bytes = 0;
   bool by_joint_search = false;  // the proof is only `joint`: a checker repeats the search
