@@ -8,9 +8,9 @@
 // with the same answer. A piece of k steps at times [b, e] gives k + 1 steps to each neighbour, and
 // to the cell itself by waiting, at those times in [b - 1, e - 1] at which the cell is safe, the
 // move is not forbidden, and no smaller number is known. So each piece is final when it is made,
-// pieces are made in order of their steps, and a cell without a constraint nearby is one piece. A
-// tree depends neither on the time when a leg starts nor on the goals visited before, so all legs
-// of one low-level call to the same target share it.
+// pieces are made in order of their steps, and a cell from which the answer does not depend on the
+// time is usually one piece. A tree depends neither on the time when a leg starts nor on the goals
+// visited before, so all legs of one low-level call to the same target share it.
 //
 // *Limits.* If a target interval begins late, waiting for it makes one piece per cell for every
 // time step before its start, as in the published code.

@@ -81,8 +81,8 @@ namespace {
 // Number of expansions in one call after which the feasibility check pays off. The check also runs
 // before costs to go that cover some sequence of the class are extended.
 constexpr std::int64_t kExpansionsBeforeCheck = 1 << 12;
-// After this many expansions in one call the costs of the legs are recomputed. Both the expansions
-// and the recomputation take some milliseconds.
+// After this many expansions in one call, if not earlier, the costs of the legs are recomputed.
+// Both the expansions and the recomputation take some milliseconds.
 constexpr std::int64_t kExpansionsBeforeRecomputation = 1 << 13;
 
 constexpr std::int64_t kNotAgain = PathQuery::kUnlimited;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Problem: target reasoning and long constraints bar places forever from some time on. Distances
-// on the bare map ignore that, so a search that uses them tries every order whose cost is below
-// that of the detour. Method: legs that provably begin late are charged for the detour.
+// Problem: target reasoning and constraints without end bar places forever from some time on.
+// Distances on the bare map ignore that, so a search that uses them tries every order whose cost is
+// below that of the detour. Method: legs that provably begin late are charged for the detour.
 //
 // *Claim: a leg that leaves stop i at time e or later takes at least depth(j) steps to reach j.*
 // Here depth is the depth in a breadth-first search from all base states on i that enters a place c

@@ -14,10 +14,10 @@
 // earliest permitted arrival in each safe interval of a neighbor is generated. The claim does not
 // hold across intervals, because an agent that arrives early can be caught in an interval that
 // leads nowhere. So labels of different intervals never dominate each other. (If traversals of a
-// corridor are barred, its inner places have several copies of each interval, one for each end at
-// which the agent can have entered. If an agent may not rest on a place by some time, the place has
-// two intervals, which differ in the time of arrival; see safe_intervals.h. The continuations
-// depend on no other part of the past.)
+// corridor are barred, its inner places have several copies of each interval, which differ in where
+// the agent entered. If an agent may not rest on a place by some time, the place has two intervals,
+// which differ in the time of arrival; see safe_intervals.h. The continuations depend on no other
+// part of the past.)
 //
 // *Finish.* The agent may come to rest only after all goals are visited and in an interval that
 // permits rest. A label with both properties is a *finish*. The *first rest* is the earliest start

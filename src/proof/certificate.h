@@ -24,8 +24,8 @@ struct Certificate {
 // Writes to `file` a certificate made from the proof logs `parts` (proof_parts.h). The certificate
 // proves the bound `claimed` or, if the logs do not suffice, the greatest bound that they prove. It
 // contains only those parts of the trees and those lemmas that this bound needs. The compressed
-// file appears completely or not at all. Throws InputError. Takes about 100 bytes of memory for
-// each logged split and bound.
+// file appears completely or not at all, except that special files are written directly
+// (AtomicFile). Throws InputError. Takes about 100 bytes of memory for each logged split and bound.
 Certificate write_certificate(const Instance& instance,
                               std::span<const std::filesystem::path> parts, Cost claimed,
                               const std::filesystem::path& file);

@@ -30,7 +30,7 @@ class CostToGo {
   // read. `direct`: if given, a graph with more than kMaxStates states is replaced by a graph by
   // direct legs, i.e. of the routes of an agent that visits each plain stop that it passes.
   explicit CostToGo(CostMatrix matrix, SharedArray table = {}, MakeDirectLegs direct = {});
-  // Returns the costs to go for one sequence class, because a graph by direct legs is valid for one
+  // Returns separate costs to go for one sequence class; a graph by direct legs is valid for one
   // class only. Returns nullopt if *this can be used for `sequence_class`.
   std::optional<CostToGo> of_class(const SequenceClass& sequence_class) const;
   // Size in bytes of a table for `stops` stops with `ports` ports each, with 16-bit entries

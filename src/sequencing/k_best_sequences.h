@@ -11,8 +11,7 @@
 namespace grove::detail {
 
 // The list of all complete sequences of one agent in ascending order of cost, from rank 0. One
-// thread at a time. Discard the list after an exception (std::bad_alloc), because its bounds are
-// then not valid.
+// thread at a time. Discard the list if a method throws, because its bounds are then not valid.
 class KBestSequences {
  public:
   // `solver` must have been made for `matrix`. `matrix` and `limits` must outlive the list.

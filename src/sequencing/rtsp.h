@@ -49,7 +49,7 @@ class RtspSolver {
 
   // Computes the least cost of the class `sequence_class`, or proves that it exceeds `cutoff`. A
   // back end may return kExact even above the cutoff. `sequence_class.prefix` must not repeat a
-  // stop.
+  // stop. The CBC back end throws std::runtime_error if CBC returns a wrong result.
   virtual RtspAnswer best(const SequenceClass& sequence_class, Time cutoff) = 0;
 
   // Returns a complete sequence of the class whose cost is the optimum. Call only if best()

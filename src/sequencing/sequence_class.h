@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Best member of a sequence class, given exact costs to go. The dynamic programs share this code,
-// in which the prefix of a class leads to a state from which the sequence continues. For matrices
-// with one port per stop.
+// Best member of a sequence class, given exact costs to go. The dynamic programs share this code:
+// the prefix of a class leads to a state, and the costs to go complete the sequence from there. For
+// matrices with one port per stop.
 #pragma once
 
 #include "model/assert.h"
