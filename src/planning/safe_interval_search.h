@@ -36,8 +36,9 @@
 // accepted when it is popped. (Conflicts during the final rest are equal for all paths of equal
 // cost that rest on one place.) A path that costs no more than the optimum without constraints
 // passes its labels at their earliest times. So among these paths the search finds one with the
-// fewest conflicts. If constraints delay the agent, the search prefers few conflicts but does not
-// minimize them, because that would require labels for later arrivals.
+// fewest conflicts, where counts above BucketQueue::kMaxConflicts are equal. If constraints delay
+// the agent, the search prefers few conflicts but does not minimize them, because that would
+// require labels for later arrivals.
 #pragma once
 
 #include <algorithm>

@@ -18,7 +18,7 @@ struct Certificate {
   std::int64_t leaves = 0;  // as `splits`
   std::int64_t lemmas = 0;
   std::int64_t bytes = 0;
-  bool by_joint_search = false;  // the proof is only `joint`: a checker repeats the search
+  bool by_joint_search = false;  // the proof is only `joint`: a checker searches all joint paths
 };
 
 // Writes to `file` a certificate made from the proof logs `parts` (proof_parts.h). The certificate

@@ -11,8 +11,8 @@ namespace grove::detail {
 
 // Sizes of a certificate, before and after.
 struct CertificateSizes {
-  std::int64_t lines = 0;  // uncompressed
-  std::int64_t bytes = 0;
+  std::int64_t lines = 0;
+  std::int64_t bytes = 0;  // of the file, compressed if it is
 };
 struct TrimmedCertificate {
   CertificateSizes before;

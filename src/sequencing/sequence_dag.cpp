@@ -78,7 +78,7 @@ namespace {
 
 constexpr std::size_t kPollInterval = 32;  // nodes; each takes a few microseconds
 constexpr std::size_t kCountedExcess =
-    4096;  // drop() counts only costs less than this above `cost_limit`
+    4096;  // drop() counts only costs at most this much above `cost_limit`
 
 }  // namespace
 
