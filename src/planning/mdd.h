@@ -62,7 +62,7 @@ class Mdd {
   std::vector<NodeId> successors_;
 };
 
-// Builds MDDs. One thread at a time. It keeps its workspace between calls, so reuse it.
+// Builds MDDs. One thread at a time. It keeps its workspace between calls, so reuse the object.
 class MddBuilder {
  public:
   enum class Outcome : std::uint8_t {

@@ -102,7 +102,8 @@ class SafeIntervalSearch {
   Time cost() const { return finish_.time; }
   void write_path(Path& path);
 
-  // Labels expanded by all searches so far, and that number plus `more`.
+  // Labels expanded by all searches so far, and that number plus `more`, at most
+  // PathQuery::kUnlimited.
   std::int64_t expanded() const { return expanded_; }
   std::int64_t expanded_after(std::int64_t more) const {
     return more < PathQuery::kUnlimited - expanded_ ? expanded_ + more : PathQuery::kUnlimited;

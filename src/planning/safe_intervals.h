@@ -138,8 +138,8 @@ class SafeIntervals {
   // barred; later than kNever if there is none. Does not test whether an agent may be on `to` at
   // that time. Not for reservations.
   Time first_move(int from_slot, Place to, Time earliest) const;
-  // The last time of arrival, `latest` or earlier, at which this move is not barred; negative if
-  // there is none.
+  // The last time of arrival, `latest` or earlier, at which a move from `from_slot` to `to` is not
+  // barred; negative if there is none. Not for reservations.
   Time last_move(int from_slot, Place to, Time latest) const;
 
   // Calls arrive(slot, state, time) for each slot to which an agent that is in `slot` at

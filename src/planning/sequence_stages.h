@@ -154,7 +154,8 @@ class SequenceStages {
   const CostToGo& cost_to_go() const { return *cost_to_go_; }
   CostToGo& cost_to_go() { return *cost_to_go_; }
 
-  // Returns false if the class is empty or if a stop or the place of rest is unreachable.
+  // Returns false if the class is empty or if a stop or the place of rest is unreachable from the
+  // start, even without constraints.
   bool plausible() const;
 
   // Returns the first stage, in which no stop is counted. Returns kOutside if the costs to go cover

@@ -54,8 +54,8 @@ inline constexpr std::int64_t kCoveringSteps = 100'000;
 // limits the effort. With 0 steps it only adds excesses of groups without a common agent.
 Cost covered(std::span<const ProofExcess> excesses, std::int64_t steps = kCoveringSteps);
 
-// Removes excesses one after another, from the last to the first, as long as the remaining ones
-// imply at least `wanted`.
+// Removes, from the last to the first, each excess without which the remaining ones imply at least
+// `wanted`.
 void leave_out(std::vector<ProofExcess>& excesses, Cost wanted,
                std::int64_t steps = kCoveringSteps);
 

@@ -28,7 +28,8 @@ class KBestSequences {
   // True if the sequence of this rank is computed; cost_bound() is then its cost.
   bool known(std::size_t rank) const;
   // Searches until `rank` is known, its cost is proven to exceed `cutoff` (kNever: no cutoff), it
-  // is proven that no such sequence exists, or a limit is reached. Returns cost_bound(rank).
+  // is proven that no such sequence exists, or a limit is reached or the solver stops
+  // (RtspAnswer::kStopped). Returns cost_bound(rank).
   Time resolve(std::size_t rank, Time cutoff);
   // Returns the sequence of a known rank. The reference is valid as long as the list lives.
   const Sequence& sequence(std::size_t rank);

@@ -56,7 +56,8 @@ class RtspSolver {
   // returned kExact for this class.
   virtual Sequence best_sequence(const SequenceClass& sequence_class) = 0;
 
-  // Returns a proven lower bound on the cost of every complete sequence, without search.
+  // Returns a proven lower bound on the cost of every complete sequence, without search. kNever:
+  // proven that none exists.
   virtual Time root_bound() const = 0;
 };
 
