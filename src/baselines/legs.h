@@ -15,8 +15,8 @@
 
 namespace grove::detail {
 
-// Maximum number of labels of a search, because labels have 32-bit numbers. A search that needs
-// more throws std::bad_alloc, as if memory were exhausted.
+// Maximum number of labels of SpaceTimeLegs and of VisitingOrderSearch, because these labels have
+// 32-bit numbers. A search that needs more throws std::bad_alloc, as if memory were exhausted.
 inline constexpr std::size_t kMaxLabels = std::numeric_limits<std::int32_t>::max();
 
 // Finds legs for one agent at a time. One thread at a time.
@@ -32,8 +32,8 @@ class Legs {
   virtual void begin(const AgentStops& stops, const SafeIntervals& intervals,
                      std::span<const Constraint> constraints) = 0;
 
-  // A safe interval of the cell of a goal. The goal is the number of a stop, or stops.count() for
-  // the destination; the slot is that of the interval.
+  // A safe interval of the cell of a goal. `goal`: index of a stop, or stops.count() for the
+  // destination. `slot`: slot of the interval.
   struct Target {
     int goal;
     int slot;

@@ -26,7 +26,8 @@ enum class LowLevel : std::uint8_t {
 // - ignore everything else in a query except the cutoff;
 // - throw std::bad_alloc if memory is insufficient.
 //
-// The stops of an agent must be the same in every call of find().
+// In every call of find() for one agent, these planners also require the same AgentStops object,
+// which must outlive the planner.
 std::unique_ptr<AgentPlanner> make_agent_planner(LowLevel low_level, const World& world);
 
 }  // namespace grove::detail

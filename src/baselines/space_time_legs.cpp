@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Space-time A* for one leg, over (cell, time). From the time on at which the constraints are
-// constant, all times are one state, which keeps the earliest time. The space is therefore finite,
-// and the search can prove that a leg does not exist. f = max(time + distance, start of the
-// target's interval), which is consistent.
+// Space-time A* for one leg, over (cell, time). Once the constraints are constant, all times are
+// one state, which keeps the earliest time. The space is therefore finite, and the search can prove
+// that a leg does not exist. f = max(time + distance, start of the target's interval), which is
+// consistent.
 #include "baselines/space_time_legs.h"
 
 #include <algorithm>

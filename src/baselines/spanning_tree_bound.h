@@ -29,7 +29,7 @@ class SpanningTreeBound {
   Time distance(int from, int to) const;
 
   const AgentStops& stops_;
-  const int destination_;            // number of the destination among the goals, or kNowhere
+  const int destination_;            // index of the destination among the goals, or kNowhere
   std::vector<StopSetIndex> index_;  // by `at` + 1: indices into known_
   std::vector<Time> known_;
   std::vector<int> outside_;   // goals outside the tree

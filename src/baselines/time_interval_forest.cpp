@@ -8,12 +8,12 @@
 // with the same answer. A piece of k steps at times [b, e] gives k + 1 steps to each neighbour, and
 // to the cell itself by waiting, at those times in [b - 1, e - 1] at which the cell is safe, the
 // move is not forbidden, and no smaller number is known. So each piece is final when it is made,
-// pieces are made in order of their steps, and a cell without a constraint nearby is one piece. A
-// tree depends neither on the time when a leg starts nor on the goals visited before, so all legs
-// of one low-level call to the same target share it.
+// pieces are made in order of their steps, and a cell from which the answer does not depend on the
+// time is usually one piece. A tree depends neither on the time when a leg starts nor on the goals
+// visited before, so all legs of one low-level call to the same target share it.
 //
 // *Limits.* If a target interval begins late, waiting for it makes one piece per cell for every
-// time step before its begin, as in the published code.
+// time step before its start, as in the published code.
 #include "baselines/time_interval_forest.h"
 
 #include <algorithm>
@@ -109,7 +109,7 @@ void TimeIntervalForest::reach_by_move(Tree& tree, Cell from, std::int32_t next)
   cover(tree, from, begin, end, next);
 }
 
-// Makes pieces for the times of [begin, end] that no piece covers yet.
+// Makes pieces for the safe times in [begin, end] that no piece covers yet.
 void TimeIntervalForest::cover(Tree& tree, Cell cell, Time begin, Time end, std::int32_t next) {
   if (begin > end) return;
   if (first_gap_[cell] == kUnseen) open_gaps(cell);

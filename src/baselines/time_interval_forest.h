@@ -23,8 +23,8 @@ class TimeIntervalForest : public Legs {
   std::int64_t expanded() const override { return expanded_; }
 
  private:
-  // An agent that is on `cell` at a time in [begin, end] needs `steps` steps to the target. The
-  // first of them leads into the piece `next`.
+  // An agent that is on `cell` at a time in [begin, end] needs at least `steps` steps to the
+  // target. The first of them leads into the piece `next`; kNone for a piece in the target.
   struct Piece {
     Cell cell;
     Time begin;
@@ -34,7 +34,7 @@ class TimeIntervalForest : public Legs {
   };
   struct Tree {
     std::vector<Piece> pieces;           // in ascending order of steps
-    std::vector<std::int32_t> by_cell;   // pieces, sorted by cell and begin
+    std::vector<std::int32_t> by_cell;   // indices in pieces, sorted by cell and `begin`
     std::vector<std::int32_t> first_of;  // by cell: index of its first piece in by_cell
   };
   // A move, and the arrival times [begin, end] at which it is forbidden.

@@ -14,9 +14,8 @@
 //   destination or, if there is none, to the nearest own task.
 // - *End.* The agent finishes on its destination or, if it has none, on any own task, if no
 //   constraint forbids it to stay there forever.
-// - *Finitely many states.* From the time on at which the constraints are constant, all times are
-//   one state, which keeps the earliest time. The search can therefore prove that an agent has no
-//   path.
+// - *Finitely many states.* Once the constraints are constant, all times are one state, which keeps
+//   the earliest time. The search can therefore prove that an agent has no path.
 #include "baselines/visited_set_search.h"
 
 #include <algorithm>

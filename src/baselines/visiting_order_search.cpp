@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A* over the visiting orders of one agent. A label is (goals left, goal on which the agent stands,
 // safe interval in which it stands there), with the earliest known time. An edge is a leg; the leg
-// planner returns its duration (legs.h). The heuristic is the minimum spanning tree of the goals
-// left.
+// planner returns its duration (legs.h). The heuristic is the weight of the minimum spanning tree
+// of this goal and the goals left.
 //
 // *Source.* As published, the middle level of HCBS (Surynek, AAAI 2021) has one label per (goals
 // left, goal) and uses each leg's earliest arrival. This is neither optimal nor complete: an agent

@@ -19,7 +19,7 @@ namespace grove::detail {
 // Outcome of a path query.
 enum class PathOutcome : std::uint8_t {
   kFound,
-  kAboveCutoff,  // proven: every path costs more than `cutoff`, if one exists
+  kAboveCutoff,  // proven: no path costs `cutoff` or less
   kInfeasible,   // proven: no path exists
   kStopped,  // nothing is proven: a limit of the run or label_limit was reached, the costs to go
              // would become too large, or known_sequences_only excluded sequences
@@ -39,9 +39,8 @@ struct PathQuery {
 
   // Paths that the path must not collide with; nullptr: none. If given, `constraints` is ignored.
   const ReservationTable* reservations = nullptr;
-  // Labels are popped in order of time + (1 + inflation_percent / 100) * cost to go. If
-  // inflation_percent is not 0, the path found may cost more than the least cost; proofs remain
-  // valid.
+  // Percentage of the cost to go that is added to the f value by which labels are popped. If it is
+  // not 0, the path found may cost more than the least cost; proofs remain valid.
   int inflation_percent = 0;
   // Restricts the search to the sequences that the costs to go cover. Another sequence may have a
   // cheaper path. If no covered sequence has a path, the outcome is kStopped unless all sequences
@@ -51,7 +50,7 @@ struct PathQuery {
 
 // Interface of an exact single-agent planner. Grove's own search uses FreeOrderSipp; the layer
 // `baselines` implements published planners. One thread at a time. An implementation keeps its
-// workspace between calls, so reuse it.
+// workspace between calls, so reuse the object.
 class AgentPlanner {
  public:
   AgentPlanner() = default;
@@ -60,10 +59,11 @@ class AgentPlanner {
   virtual ~AgentPlanner() = default;
 
   // Finds a path of least cost from the start at time 0 that realizes some sequence of the class
-  // and satisfies the constraints of `query`, if that cost is at most the cutoff. The path ends
-  // when the agent comes to rest: its cost is path.size() - 1. Writes `path` only on kFound. May
-  // widen the costs to go of `goals` (CostToGo::widen). Throws std::invalid_argument for a query
-  // that is invalid or that this planner does not support.
+  // and satisfies the constraints of `query`, if that cost is at most the cutoff. With
+  // inflation_percent or known_sequences_only the path may cost more than the least cost. The path
+  // ends when the agent comes to rest: its cost is path.size() - 1. Writes `path` only on kFound.
+  // May widen the costs to go of `goals` (CostToGo::extend). Throws std::invalid_argument for a
+  // query that is invalid or that this planner does not support.
   virtual PathOutcome find(SequenceStages& goals, const PathQuery& query, const Limits& limits,
                            Path& path) = 0;
 

@@ -15,11 +15,11 @@ namespace grove::detail {
 // A monotone priority queue for small integers. Entries are popped in ascending order of *layer*
 // (an f value), then of conflicts. Ties in the current layer are popped last in, first out, which
 // favours depth; ties that were pushed for a later layer are popped in no specified order. push()
-// is O(1). pop() is amortized O(1), except for skipping empty lists and for each move of the
-// window, which visits all later entries.
+// is amortized O(1). So is pop(), except for skipping empty lists and for each move of the window,
+// which visits all later entries.
 //
 // Entries are stored in one pool and linked into lists: one per conflict count for the current
-// layer, one per layer for the next kWindow layers, one for all later layers. The pool keeps its
+// layer, one per layer of a window of kWindow layers, one for all later layers. The pool keeps its
 // memory, so only a search that is larger than all earlier ones allocates.
 //
 // `Progress` is an integer that identifies the set of visited goals. One byte suffices if the order
@@ -70,7 +70,7 @@ class BasicBucketQueue {
 
   Time layer_ = 0;
   Time window_begin_ = 0;
-  Time window_used_ = 0;  // lists of window_ from here on are empty
+  Time window_used_ = 0;  // lists of window_ from this one on are empty
   int level_ = 0;         // lists of current_ before this one are empty
   int levels_used_ = 0;   // lists of current_ from this one on are empty
   std::array<std::int32_t, kMaxConflicts + 1> current_;  // heads by conflicts

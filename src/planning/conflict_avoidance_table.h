@@ -12,11 +12,13 @@
 
 namespace grove::detail {
 
-// Counts the paths that use each (place, time) and each (move, time); fewer than 65,536 paths. It
-// is a hash table of the (place, time) pairs on the paths, so its size does not depend on the
-// number of time steps and places of the world. It takes at least about 100 bytes per step of a
-// path, and fits into the processor cache where a table of all pairs would not. One thread at a
-// time.
+// Counts the paths that use each (place, time) and each (move, time), for at most 65,535 paths. The
+// counts are in a hash table of the (place, time) pairs on the paths, so their memory does not grow
+// with the numbers of places and time steps: it is at least about 100 bytes per pair, and fits into
+// the processor cache where a table of all pairs would not. Two further arrays take 12 bytes per
+// place. Two counts are not exact: visits and moves after time 2^21 - 1 are not counted, and on a
+// place with more than four neighbors, moves from the fourth and later neighbors are counted
+// together. One thread at a time.
 class ConflictAvoidanceTable {
  public:
   // `world` must outlive this object.
@@ -40,8 +42,8 @@ class ConflictAvoidanceTable {
     const int count = visits(place, time);
     return time > first_rest_[place] ? count + rests_before(place, time) : count;
   }
-  // The moves, of all paths in the table, that arrive on one place at one time. Valid until the
-  // table changes.
+  // The moves of all paths in the table that arrive on one place at one time. Valid until the table
+  // changes.
   class Arrivals {
    public:
     // Number of paths that arrive from this neighbor. A move to the neighbor in the same step has
@@ -112,7 +114,7 @@ class ConflictAvoidanceTable {
   static int direction_on_roads(const World& world, Place from, Place to);
   // Index of the counts of a key, or of the free entry for it. Open addressing, at most a quarter
   // full. The hash is the index into a table of all (time, place) pairs, modulo the size, so that
-  // adjacent places at one time share a cache line.
+  // adjacent places at one time are often in one cache line.
   std::size_t slot(std::uint64_t key) const {
     const std::uint64_t place = key & ((std::uint64_t{1} << kPlaceBits) - 1);
     const std::uint64_t time = key >> kPlaceBits & kLastTime;
@@ -134,7 +136,7 @@ class ConflictAvoidanceTable {
   // answers most queries. Bits of removed paths can remain set until the next generation.
   struct Visited {
     std::uint32_t generation = 0;
-    std::uint32_t times = 0;  // bit t / kTimesPerBit % 32: visited at a time t?
+    std::uint32_t times = 0;  // bit t / kTimesPerBit % 32 is set if a path is here at time t
   };
   static constexpr int kTimesPerBit = 8;
   static std::uint32_t time_bit(Time time) {
@@ -160,7 +162,7 @@ class ConflictAvoidanceTable {
                           // that differ by a multiple of the table size have the same hash
   std::uint64_t generation_ = 1;
   std::size_t keys_ = 0;          // keys of this generation, including those of removed paths
-  Time horizon_ = 0;              // no path added since the last clear() moves after this time
+  Time horizon_ = 0;              // no visit after this time is counted
   std::vector<Time> first_rest_;  // by place: earliest time at which a path comes to rest there
   std::vector<Rest> rests_;
   std::vector<Counts> in_use_;  // scratch memory for make_room()

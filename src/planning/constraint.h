@@ -26,12 +26,13 @@ enum class ConstraintKind : std::uint8_t {
   // makes its last move to the place later than `end`. (Target reasoning: Li et al. 2021.) `from`
   // and `begin` are not used.
   kNoRestBy = 1,
-  // The agent comes to rest forever on `cell`, at `end` or earlier. `from` and `begin` are not
-  // used.
+  // The agent comes to rest forever on `cell`: it makes its last move to the place at `end` or
+  // earlier, and may turn or execute tasks there afterwards. `from` and `begin` are not used.
   kRestBy = 2,
   // The agent does not traverse a corridor (corridors.h) such that it arrives on the end `cell`,
   // from the inner place `from`, at a time in [begin, end]. A traversal enters at the other end and
-  // stays inside in between. An agent that turns round inside or starts inside makes no traversal.
+  // stays inside in between. An agent that starts inside, or leaves where it entered, makes no
+  // traversal.
   kNoTraversal = 3,
   // Only in certificates: in the sequence of counted stops, position `begin` (from 0) holds stop
   // `from` (kStopIs), or does not (kStopIsNot). These constraints state the sequence class of a
@@ -91,7 +92,7 @@ inline bool constrains_all_agents(const Constraint& c) {
 // Returns nullopt if it implies none.
 std::optional<Constraint> constraint_on(AgentIndex agent, const AgentConstraint& added);
 
-// Calls visit(agent, constraint) for each of `agents` for which `added` implies a constraint.
+// Calls visit(agent, constraint) for each agent of `agents` on which `added` implies a constraint.
 // `agents` must contain added.agent.
 template <class Agents, class Visit>
 void for_each_implied_constraint(const AgentConstraint& added, const Agents& agents, Visit visit) {

@@ -23,7 +23,7 @@ class Corridors {
   explicit Corridors(const World& world);
 
   int count() const { return static_cast<int>(first_.size()) - 1; }
-  // The corridor of which `place` is an inner place; kNoCorridor if there is none.
+  // The corridor that contains `place` as an inner place; kNoCorridor if there is none.
   int corridor_of(Place place) const { return corridor_of_[place]; }
   // The places of a corridor: one end (the *front*), the inner places in order, the other end (the
   // *back*).

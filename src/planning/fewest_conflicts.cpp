@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Problem: the low level prefers few conflicts among the paths that it generates, but it keeps only
-// the earliest label per safe interval and stage. Therefore it does not consider other places where
-// the agent could spend a delay.
+// the earliest label per state, safe interval and stage. Therefore it does not consider all places
+// where the agent could spend a delay.
 //
 // Method: dynamic programming over the MDD, which represents every path. The conflicts of a step
 // depend only on its two places and its time. Therefore the fewest conflicts from a node to the end

@@ -12,11 +12,12 @@
 namespace grove::detail {
 
 // Breaks ties among the paths of an MDD, which have equal cost. One thread at a time. It keeps its
-// workspace between calls, so reuse it.
+// workspace between calls, so reuse the object.
 class FewestConflicts {
  public:
-  // Writes the path of `paths` (not empty) that has the fewest conflicts with `others`, as
-  // ConflictAvoidanceTable::conflicts_of counts them. O(edges of `paths`).
+  // Writes a path of `paths` (not empty) with the fewest conflicts with `others`, as
+  // ConflictAvoidanceTable::conflicts_of counts them. O(edges of `paths`), plus a few queries of
+  // `others` per node.
   void find(const Mdd& paths, const ConflictAvoidanceTable& others, Path& path);
 
   // MDD nodes processed by all calls so far.

@@ -49,8 +49,8 @@ class FixedOrderGoals {
   using Progress = std::uint8_t;
   static constexpr int kMaxGoals = 255;
 
-  // `goals` must outlive the search and have at most 255 goals. Returns false if a quick test
-  // proves that there is no path.
+  // Sets the goals, at most kMaxGoals. `world` and the distance fields of `goals` must outlive the
+  // search. Returns false if a quick test proves that there is no path.
   bool assign(const World& world, const GoalSequence& goals, const SafeIntervals& intervals);
 
   Time first_rest() const { return first_rest_; }
@@ -94,12 +94,12 @@ class FixedOrderGoals {
   // Data for one value of progress.
   struct Stage {
     DistanceView to_goal;  // distances to the next goal
-    State first;           // the first of the base states on its place
-    std::uint32_t states;  // the number of these base states
+    State first;           // first base state on the goal's place; 0 if the place is not fixed
+    std::uint32_t states;  // number of these base states; of all states if it is not fixed
     Time after_goal;
     TaskIndex work;  // the task that takes time at the next goal; -1: none
     Time latest;     // labels of greater f miss a deadline
-    // A label of f >= gate_from is postponed to layer gate_until; kNever: it is dropped.
+    // A label of f >= gate_from is postponed to layer gate_until; if this is kNever, it is dropped.
     Time gate_from;
     Time gate_until;
   };

@@ -15,7 +15,8 @@ namespace grove::detail {
 
 // Safe-interval path planning (Phillips and Likhachev 2011) with one label per (state, safe
 // interval, progress). The proofs are at the heads of safe_interval_search.h and
-// fixed_order_goals.h. One thread at a time. It keeps its workspace between calls, so reuse it.
+// fixed_order_goals.h. One thread at a time. It keeps its workspace between calls, so reuse the
+// object.
 class FixedOrderSipp {
  public:
   // `world` must outlive this object.

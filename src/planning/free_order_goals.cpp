@@ -25,9 +25,9 @@ void FreeOrderGoals::find_deadlines(const SafeIntervals& intervals) {
   }
 }
 
-// Computes the first time at which the agent may come to rest forever on any of its places of
-// rest. Without a destination, also finds the stop on which a constraint forces it to rest. (With a
-// destination the heuristic already leads there.)
+// Computes the first time at which the agent may come to rest forever on any of its places of rest.
+// If it rests on its last stop, also finds the stop on which a constraint forces it to rest. (With
+// a destination the heuristic already leads there.)
 void FreeOrderGoals::find_rests(const SafeIntervals& intervals) {
   const AgentStops& stops = goals_->stops();
   only_rest_ = AgentStops::kNoStop;

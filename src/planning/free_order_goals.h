@@ -5,13 +5,12 @@
 // (MGCBS: Tang et al., IJCAI 2024). The heuristic is the exact cost to go from the sequence graph.
 //
 // *Heuristic.* h(state) = minimum over the stops u that may be next of dist(state, u) + cost to go
-// from u. It is exact without constraints if the costs to go cover all sequences. If nothing is
-// left, h is the distance to the destination, or without one to the nearest stop where the agent
-// may rest.
+// from u. It is exact without constraints if the costs to go cover all sequences. If no stop is
+// left, h is the distance to the nearest state in which the agent may rest.
 //
-// *Target reasoning.* A constraint to rest on v by t (kRestBy) leaves v as the only place of rest,
-// and the heuristic is at least the distance to v. FreeOrderSipp applies the cutoff that the
-// constraint implies.
+// *Target reasoning.* A constraint to rest on v by t (kRestBy) leaves v as the only place of rest.
+// If the agent rests on its last stop, the heuristic is at least the distance to v. FreeOrderSipp
+// applies the cutoff that the constraint implies.
 //
 // *Cap.* Labels of f > cap are dropped, and so are labels in stages that the costs to go do not
 // cover. is_complete() returns false if a dropped label could have led to a path. The head of
@@ -117,12 +116,13 @@ class FreeOrderGoals {
   int inflation_percent_ = 0;
   std::vector<Deadline> deadlines_;
   Time first_rest_ = 0;
-  int only_rest_ = AgentStops::kNoStop;  // without a destination: the only stop of rest (kRestBy)
+  // If the agent rests on its last stop: the only stop on which it may rest (kRestBy).
+  int only_rest_ = AgentStops::kNoStop;
   StopDominance gates_;
   Time cap_ = 0;
   bool dropped_by_cap_ = false;  // a label was dropped by the cap
-  bool dropped_uncovered_ =
-      false;  // a label was dropped because the costs to go do not cover its stage
+  // A continuation that the costs to go do not cover may have been dropped.
+  bool dropped_uncovered_ = false;
 };
 
 }  // namespace grove::detail

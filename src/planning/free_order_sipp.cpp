@@ -32,11 +32,12 @@
 // labels are kept up to the first rest.
 //
 // *Late costs.* If places are barred forever, the plain costs to go ignore the detour around them,
-// and a search that uses them can try all orders. So once per hard call, and before the costs to go
-// are widened, the costs of the legs are recomputed (late_costs.cpp). If the best sequence costs
-// more with the new legs, the search restarts with separate costs to go over the new legs. All of
-// the above holds for the late costs in place of the plain ones, because a path through the stops
-// of s costs at least as much as s, and from any of its stages on at least the cost to go.
+// and a search that uses them can try all orders. So at most once per call, after many expansions
+// or before the costs to go are widened, the costs of the legs are recomputed (late_costs.cpp). If
+// the best sequence costs more with the new legs, the search restarts with separate costs to go
+// over the new legs. All of the above holds for the late costs in place of the plain ones, because
+// a path through the stops of s costs at least as much as s, and from any of its stages on at least
+// the cost to go.
 //
 // *Cutoff.* Labels of f > cutoff are dropped. Therefore kAboveCutoff proves only that no path costs
 // the cutoff or less. A constraint that the agent comes to rest by t (kRestBy) acts as a cutoff of
@@ -51,7 +52,7 @@
 // *Feasibility check.* An infeasible call can visit all 2^n sets of stops, because with time
 // windows the decision problem is NP-hard. The same holds for calls in which the least cost is far
 // above the cutoff. Most such calls are due to a door that is closed before or behind the agent. So
-// once per hard call single_stop_bound.cpp computes a lower bound on the cost from each stop
+// at most once per call single_stop_bound.cpp computes a lower bound on the cost from each stop
 // separately.
 //
 // *Measured* on the benchmark's 32x32 maps with obstacles (nine other agents, one core, median of a
@@ -78,10 +79,10 @@ namespace grove::detail {
 namespace {
 
 // Number of expansions in one call after which the feasibility check pays off. The check also runs
-// before the costs to go are extended a second time.
+// before costs to go that cover some sequence of the class are extended.
 constexpr std::int64_t kExpansionsBeforeCheck = 1 << 12;
-// After this many expansions in one call the costs of the legs are recomputed. Both the expansions
-// and the recomputation take some milliseconds.
+// After this many expansions in one call, if not earlier, the costs of the legs are recomputed.
+// Both the expansions and the recomputation take some milliseconds.
 constexpr std::int64_t kExpansionsBeforeRecomputation = 1 << 13;
 
 constexpr std::int64_t kNotAgain = PathQuery::kUnlimited;
@@ -196,9 +197,9 @@ PathOutcome FreeOrderSipp::Workspace::find_any() {
   }
 }
 
-// Searches for a path of cost at most `cap`. A path that it finds has least cost if it costs at
-// most outside_bound(). Returns nullopt if recompute_costs() replaced the stages and the search
-// must restart.
+// Searches for a path of cost at most `cap`; kAboveCutoff then refers to `cap`. Without inflation,
+// a path that it finds has least cost if it costs at most outside_bound(). Returns nullopt if
+// recompute_costs() replaced the stages and the search must restart.
 std::optional<PathOutcome> FreeOrderSipp::Workspace::find_within(Time cap) {
   const bool all_known = goals().cost_to_go().outside_bound() == kNever;
   const SequenceStages::StageId first = goals().first_stage();

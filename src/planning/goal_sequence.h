@@ -16,14 +16,14 @@ namespace grove::detail {
 // before it, in order.
 class GoalSequence {
  public:
-  // `stops`: the tasks of all stops of the agent, in the order of visits. `instance` and
-  // `distances` must outlive this object.
+  // `stops`: the tasks of all stops of the agent, in the order of visits. `distances` must outlive
+  // this object.
   GoalSequence(const Instance& instance, const DistanceFields& distances, AgentIndex agent,
                const std::vector<TaskIndex>& stops);
 
   State start() const { return start_; }
   int size() const { return static_cast<int>(goals_.size()); }
-  // Place of goal k; kNoPlace if the agent may rest on any of several places.
+  // Place of goal k; kNoPlace for the last goal if the place of rest is not fixed.
   Place goal(int k) const { return goals_[checked(k)]; }
   Place last() const { return goals_.back(); }
   // The task at goal k if it takes time, else -1.

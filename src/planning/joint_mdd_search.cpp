@@ -36,7 +36,7 @@ Range nodes_at(const Mdd& paths, Time time) {
   return paths.layer(std::min(time, paths.cost()));
 }
 
-// A set of pairs of nodes. clear() takes O(1).
+// A set of pairs of nodes. clear() is amortized O(1).
 class PairSet {
  public:
   void clear() {

@@ -29,8 +29,9 @@ class JointMddSearch {
   explicit JointMddSearch(const World& world);
   ~JointMddSearch();
 
-  // `a` and `b` must not be empty. They may differ in length: an agent rests on its last place for
-  // ever. Returns kUnknown if the search generates more than `max_pairs` pairs of nodes.
+  // `a` and `b` must not be empty. They may differ in length: an agent rests on its last place
+  // forever. The search stops with kUnknown at a limit or after it has generated more than
+  // `max_pairs` pairs of nodes.
   Dependence find(const Mdd& a, const Mdd& b, std::size_t max_pairs, const Limits& limits);
 
   // Pairs of nodes expanded by all calls so far.

@@ -20,9 +20,10 @@ namespace grove::detail {
 // Holds one *plane* of labels, indexed by slot, for each "state" that a search reaches; a state
 // here is a progress or stage, not a state of a World. Planes are allocated on demand and reused by
 // later searches. No label is cleared, because a label of an earlier search has an earlier stamp.
-// On a large map a plane occupies only the memory pages in which a label was accessed. The memory
-// is released when searches have used many pages. `Label` is any trivial type with a member
-// `stamp`, which the search must set together with the other members. One thread at a time.
+// On a large map a plane occupies only the memory pages in which a label was accessed.
+// begin_search() releases the memory if earlier searches have used many pages or the planes are too
+// small. `Label` is any trivial type with a member `stamp`, which the search must set together with
+// the other members. One thread at a time.
 template <class Label>
 requires std::is_trivial_v<Label> && std::same_as<decltype(Label::stamp), std::uint32_t>
 class LabelPlanes {
@@ -83,7 +84,7 @@ class LabelPlanes {
   // to clear memory that it reuses.
   static constexpr std::size_t kPieceBytes = std::size_t{16} << 20;
   static constexpr std::size_t kMaxPlanesPerPiece = 16;
-  // Number of groups in use above which the next search releases the memory. A label that is the
+  // Number of accessed groups above which the next search releases the memory. A label that is the
   // only one on its page costs two hundred times its size.
   static constexpr std::int64_t kGroupsKept = (std::int64_t{128} << 20) / 4096;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Problem: target reasoning and long constraints bar places forever from some time on. Distances
-// on the bare map ignore that, so a search that uses them tries every order whose cost is below
-// that of the detour. Method: legs that provably begin late are charged for the detour.
+// Problem: target reasoning and constraints without end bar places forever from some time on.
+// Distances on the bare map ignore that, so a search that uses them tries every order whose cost is
+// below that of the detour. Method: legs that provably begin late are charged for the detour.
 //
 // *Claim: a leg that leaves stop i at time e or later takes at least depth(j) steps to reach j.*
 // Here depth is the depth in a breadth-first search from all base states on i that enters a place c
@@ -88,7 +88,8 @@ class LateCosts {
              [&](State state) { return stops_.to_rest(state) == 0; });
   }
 
-  // Raises the entries of `column` to the depth of the nearest state on `place` for which counts().
+  // Raises the entries of `row` in `column` to the depth of the nearest state on `place` that
+  // satisfies counts().
   template <class Counts>
   void raise_to(int row, int column, Place place, Counts counts) {
     Time depth = kNever;
@@ -106,8 +107,8 @@ class LateCosts {
   }
 
   // Quick test: can a leg that begins at `begin` on the stop reach some place only after the last
-  // time at which an agent may be there? It uses distances to the stop for those from it. If the
-  // two differ, the test may miss a leg, whose entry then remains the plain one.
+  // time at which an agent may be there? It uses distances to the stop in place of distances from
+  // it. If the two differ, the test may miss a leg, whose entry then remains the plain one.
   bool is_late(int stop, Time begin) const {
     return std::ranges::any_of(barred_, [&](State state) {
       const Time there = stops_.distance(state, stop);

@@ -25,8 +25,8 @@ class LateStages {
   LateStages(const World& world, SafeIntervals& intervals) : world_(world), intervals_(intervals) {}
 
   // Returns the stages of the class of `plain` over late costs. Returns nullptr if they do not
-  // prove a higher cost of the best sequence, for instance because a limit was reached. Valid until
-  // the next call.
+  // prove a higher cost of the best sequence, for instance because a limit was reached. The result
+  // refers to plain.stops() and is valid until the next call.
   SequenceStages* over(SequenceStages& plain, const Limits& limits);
 
  private:

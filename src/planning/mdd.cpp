@@ -28,12 +28,12 @@
 // dropped. If C > 0, a path comes to rest by a move that arrives at C in a slot where it may rest,
 // because its last step is not a wait; if C = 0, the path is there from the start. Conversely, each
 // walk to such an end satisfies the constraints, because slots and moves determine whether a path
-// satisfies them. The only exception is the time by which the agent must have come to rest; build()
-// compares C with it first.
+// satisfies them. The only exception, if states are places, is the time by which the agent must
+// have come to rest; build() compares C with it first.
 //
 // *Measured* against a method that builds the layers forward, time by time, and then removes dead
-// ends: it generated four nodes for each node that it kept, and an instance of the paper's data set
-// that takes Grove seconds took 1.5 times as long.
+// ends: it generated four nodes for each node that it kept, and a benchmark instance that takes
+// some seconds took 1.5 times as long.
 #include "planning/mdd.h"
 
 #include <algorithm>

@@ -62,14 +62,14 @@ class Mdd {
   std::vector<NodeId> successors_;
 };
 
-// Builds MDDs. One thread at a time. It keeps its workspace between calls, so reuse it.
+// Builds MDDs. One thread at a time. It keeps its workspace between calls, so reuse the object.
 class MddBuilder {
  public:
   enum class Outcome : std::uint8_t {
     kBuilt,
     kNone,      // proven: no path has exactly this cost
-    kTooLarge,  // more than `max_nodes` nodes, or (slot, stage) pairs reached
-    kStopped,   // a limit was reached
+    kTooLarge,  // more than `max_nodes` nodes, or more (slot, stage) pairs than that were reached
+    kStopped,   // a limit was reached, or the costs to go would become too large
   };
 
   // `world` must outlive this object.

@@ -13,8 +13,9 @@
 namespace grove::detail {
 
 // Stores the paths of some agents by place, including their final rest. Prioritised planning treats
-// them as moving obstacles. The time to add or remove a path is linear in the number of stays on
-// its places, and the low level looks up only the places that it reaches. One thread at a time.
+// them as moving obstacles. Adding or removing a path takes, for each of its stays, time linear in
+// the number of stays on the same place. The low level looks up only the places that it reaches.
+// One thread at a time.
 class ReservationTable {
  public:
   static constexpr AgentIndex kNoAgent = -1;

@@ -14,10 +14,10 @@
 // earliest permitted arrival in each safe interval of a neighbor is generated. The claim does not
 // hold across intervals, because an agent that arrives early can be caught in an interval that
 // leads nowhere. So labels of different intervals never dominate each other. (If traversals of a
-// corridor are barred, its inner places have several copies of each interval, one for each end at
-// which the agent can have entered. If an agent may not rest on a place by some time, the place has
-// two intervals, which differ in the time of arrival; see safe_intervals.h. The continuations
-// depend on no other part of the past.)
+// corridor are barred, its inner places have several copies of each interval, which differ in where
+// the agent entered. If an agent may not rest on a place by some time, the place has two intervals,
+// which differ in the time of arrival; see safe_intervals.h. The continuations depend on no other
+// part of the past.)
 //
 // *Finish.* The agent may come to rest only after all goals are visited and in an interval that
 // permits rest. A label with both properties is a *finish*. The *first rest* is the earliest start
@@ -36,8 +36,9 @@
 // accepted when it is popped. (Conflicts during the final rest are equal for all paths of equal
 // cost that rest on one place.) A path that costs no more than the optimum without constraints
 // passes its labels at their earliest times. So among these paths the search finds one with the
-// fewest conflicts. If constraints delay the agent, the search prefers few conflicts but does not
-// minimize them, because that would require labels for later arrivals.
+// fewest conflicts, where counts above BucketQueue::kMaxConflicts are equal. If constraints delay
+// the agent, the search prefers few conflicts but does not minimize them, because that would
+// require labels for later arrivals.
 #pragma once
 
 #include <algorithm>
@@ -63,9 +64,8 @@ inline constexpr Time kDropped = std::numeric_limits<Time>::max();
 // - may_end(progress, state): are all goals visited, and is this a state of rest? (The search tests
 //   the interval itself.)
 // - first_rest(): lower bound on the cost of every path;
-// - postponed_layer(progress, state, time, layer): the layer to which this label, popped in layer
-// `layer`,
-//   is postponed, or kDropped; a value of at most `layer` if it is not postponed;
+// - postponed_layer(progress, state, time, layer): the layer to which this label, popped in
+//   `layer`, is postponed, or kDropped; a value of at most `layer` if it is not postponed;
 // - can_be_gate(state, before, progress): can a label in `state` whose parent has progress `before`
 //   be a *gate*, i.e. dominate other labels?
 // - add_gate(state, before, progress, time, until): records a gate that dominates labels from
@@ -77,14 +77,14 @@ class SafeIntervalSearch {
   enum class End : std::uint8_t {
     kFound,
     kExhausted,  // no path exists except through labels that Goals dropped
-    kPaused,     // `pause_at` labels are expanded; call run() to continue
-    kStopped,    // a limit was reached
+    kPaused,     // expanded() has reached `pause_at`; call run() to continue
+    kStopped,    // a limit was reached, or there was no memory for labels
   };
 
   // `world` must outlive this object.
   explicit SafeIntervalSearch(const World& world) : world_(world), intervals_(world) {}
 
-  // Set both before begin(), and do not change them while the search runs.
+  // Set the intervals and the goals before begin(), and do not change them while the search runs.
   SafeIntervals& intervals() { return intervals_; }
   Goals& goals() { return goals_; }
   const World& world() const { return world_; }
@@ -95,14 +95,15 @@ class SafeIntervalSearch {
   void begin(State start, Progress progress, Time first_layer, const ConflictAvoidanceTable* others,
              const Limits& limits);
   // Continues until the search ends or expanded(), which counts all searches, is exactly
-  // `pause_at`. The count is exact so that the effort of a search does not depend on earlier
-  // searches.
+  // `pause_at`. (If it is at least `pause_at` already, expands one more label.) The count is exact
+  // so that the effort of a search does not depend on earlier searches.
   End run(std::int64_t pause_at);
   // The cost of the path found, and the path. Valid after kFound.
   Time cost() const { return finish_.time; }
   void write_path(Path& path);
 
-  // Labels expanded by all searches so far, and that number plus `more`.
+  // Labels expanded by all searches so far, and that number plus `more`, at most
+  // PathQuery::kUnlimited.
   std::int64_t expanded() const { return expanded_; }
   std::int64_t expanded_after(std::int64_t more) const {
     return more < PathQuery::kUnlimited - expanded_ ? expanded_ + more : PathQuery::kUnlimited;

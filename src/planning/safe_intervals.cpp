@@ -260,7 +260,7 @@ Time SafeIntervals::next_begin(int slot) const {
 Time SafeIntervals::first_move(int from_slot, Place to, Time earliest) const {
   if (unconstrained(to)) return earliest;
   const Group& group = groups_[group_of_[to]];
-  // One pass suffices, because the bars are in order of their begin.
+  // One pass suffices, because the bars are in order of their first times.
   for (int i = group.first_move; i < group.end_move; ++i)
     if (bars(bars_[i], from_slot, earliest)) earliest = std::min(bars_[i].end, kNever) + 1;
   return earliest;

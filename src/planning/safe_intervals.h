@@ -28,7 +28,7 @@ struct SafeInterval {
   // With reservations: the place to which the previous agent moves when it leaves this place;
   // kNoPlace if there was none.
   Place left_for = kNoPlace;
-  bool is_late = false;  // agents that arrived earlier may rest
+  bool is_late = false;  // its agents arrived too late to rest (kRestBy)
 };
 
 // The safe intervals of all states under one list of constraints. Intervals are numbered as
@@ -37,7 +37,8 @@ struct SafeInterval {
 // state. The intervals of states on other places are the slots from World::state_count() on. Those
 // of one state are contiguous and, within a copy (see below), in order of time. One object can be
 // assigned many lists, one after another. Each list takes O(constraints), plus sorting and the
-// length of the corridors with barred traversals. One thread at a time.
+// length of the corridors with barred traversals; the first list that bars a traversal also takes
+// O(places). One thread at a time.
 //
 // With reservations instead of constraints, see() makes the intervals of a place on demand: the
 // caller must call it before any other query about the place. With constraints see() does nothing.
@@ -66,7 +67,7 @@ class SafeIntervals {
   // that does not leave a corridor, or a constraint on the sequence.
   void assign(std::span<const Constraint> constraints);
   // Replaces the constraints by reservations: bars all places, moves and rests that would collide
-  // with a reserved path. `reservations` must not change until the next assign().
+  // with a reserved path. `reservations` must exist and not change until the next assign().
   void assign(const ReservationTable& reservations);
 
   void see(Place place) {
@@ -104,7 +105,8 @@ class SafeIntervals {
     return copy_of(slot) == kFree && !(slot >= states_ && interval(slot).is_late);
   }
 
-  // True if no constraint bars the place or a move to it, and the place has no copies.
+  // True if each state on the place has only the slot of all times, because no constraint or
+  // reserved path requires other slots.
   bool unconstrained(Place place) const { return group_of_[place] == kNoGroup; }
   // The slots of a state are first_slot(state), ..., end_slot(state) - 1. There may be none.
   int first_slot(State state) const {
@@ -115,7 +117,7 @@ class SafeIntervals {
     const Place place = world_.place(state);
     return unconstrained(place) ? state + 1 : slots(groups_[group_of_[place]], state).end;
   }
-  // The slot of an agent that starts in `state` at time 0; -1 if a constraint bars this.
+  // The slot of an agent that starts in `state` at time 0; -1 if the agent may not be there.
   int start_slot(State state) const;
   // The start of the first slot of `place` in which the agent may rest; kNever if there is none.
   Time rest_begin(Place place) const;
@@ -136,8 +138,8 @@ class SafeIntervals {
   // barred; later than kNever if there is none. Does not test whether an agent may be on `to` at
   // that time. Not for reservations.
   Time first_move(int from_slot, Place to, Time earliest) const;
-  // The last time of arrival, `latest` or earlier, at which this move is not barred; negative if
-  // there is none.
+  // The last time of arrival, `latest` or earlier, at which a move from `from_slot` to `to` is not
+  // barred; negative if there is none. Not for reservations.
   Time last_move(int from_slot, Place to, Time latest) const;
 
   // Calls arrive(slot, state, time) for each slot to which an agent that is in `slot` at

@@ -31,9 +31,9 @@
 // starts an execution only on a stop that may be counted next. The execution ends with this count,
 // because nothing else can be counted during it (if a place has stops that take time, it has no
 // other stops: Instance). An execution that does not count would be equivalent to waiting. A task
-// is not executed again at the end of the path. So an agent without a destination that has a stop
-// that takes time may rest on any of its own places, no matter which stop it counted last. As with
-// a destination, the order then does not determine where the agent rests.
+// is not executed again at the end of the path. So if a stop takes time, an agent without a
+// destination may rest on any of its own places, no matter which stop it counted last. As with a
+// destination, the order then does not determine where the agent rests.
 //
 // *Distance.* The distance from a state is the least dist(state, u) + onward(u) over the stops u
 // that may be next, where onward(u) is the least cost from u through the other stops left. Let D(u,

@@ -71,8 +71,8 @@ class AgentStops {
   // Distance from a state to the nearest state in which the agent may rest. Requires
   // !rests_on_last_stop().
   Time to_rest(State state) const { return to_rest_[state]; }
-  // Upper bound on the distance from port `from` of one stop to port `to` of another, over all base
-  // states on the first stop.
+  // Upper bound on the distance from port `from` to port `to`. With one port per stop it is the
+  // maximum over the base states on the first stop.
   Time longest_leg(int from, int to) const {
     return longest_legs_[static_cast<std::size_t>(from) * port_count() + to];
   }
@@ -115,11 +115,11 @@ class AgentStops {
 };
 
 // Stages of one agent under one sequence class, numbered in the order of their creation. A stage is
-// the progress of the agent: the stops left to count and, without a destination, the stops where it
-// may rest. The agent *counts* a stop by one of its visits there, which is then the visit that the
-// sequence refers to. A path *realizes* a sequence if it visits the stops in that order and,
-// without a destination, rests on the last one. One thread at a time; several SequenceStages of the
-// same thread may share their AgentStops.
+// the progress of the agent: the stops left to count and, if the agent rests on its last stop, the
+// stops where it may rest. The agent *counts* a stop by one of its visits there, which is then the
+// visit that the sequence refers to. A path *realizes* a sequence if it visits the stops in that
+// order and ends at rest, on the last of them if rests_on_last_stop(). One thread at a time;
+// several SequenceStages of the same thread may share their AgentStops.
 class SequenceStages {
  public:
   using StageId = std::int32_t;
@@ -131,8 +131,8 @@ class SequenceStages {
     StopSet rests = 0;         // if the agent rests on its last stop: the stops where it may rest
     bool may_skip = false;     // a visit of a stop in `next` need not count it
     std::int32_t first = 0;    // index in onward_ of the first onward port of the stage
-    std::int32_t nearest = 0;  // number of those that determine distance(); they come first
-    std::int32_t count = 0;
+    std::int32_t nearest = 0;  // number of onward ports that determine distance(); they come first
+    std::int32_t count = 0;    // number of onward ports
   };
   // A port of a stop that may be counted next, and the least cost from this port through all other
   // stops that are left to the end.
@@ -154,7 +154,8 @@ class SequenceStages {
   const CostToGo& cost_to_go() const { return *cost_to_go_; }
   CostToGo& cost_to_go() { return *cost_to_go_; }
 
-  // Returns false if the class is empty or if a stop or the place of rest is unreachable.
+  // Returns false if the class is empty or if a stop or the place of rest is unreachable from the
+  // start, even without constraints.
   bool plausible() const;
 
   // Returns the first stage, in which no stop is counted. Returns kOutside if the costs to go cover
@@ -233,12 +234,12 @@ class SequenceStages {
   void add_onward(Stage& stage);
 
   AgentStops& stops_;
-  std::optional<CostToGo> own_;  // costs to go of the class; nullopt: those of `stops_` serve it
+  std::optional<CostToGo> own_;  // costs to go of the class; nullopt: another object's serve it
   CostToGo* cost_to_go_;
   SequenceClass class_;
   StopSet free_;            // stops that are not in the prefix
   StopSet first_free_;      // stops of free_ that may be the first of them
-  bool rest_is_not_first_;  // without a destination: see the head of the .cpp
+  bool rest_is_not_first_;  // may it not rest on the free stop counted first? See the .cpp.
   std::size_t stride_;      // row length of after_: number of stops
   Time built_outside_bound_ =
       -1;  // outside_bound() of the costs to go for which the stages are valid
@@ -251,8 +252,8 @@ class SequenceStages {
 };
 
 // Returns the sequence of the class that a path realizes, where each stop is counted as early as
-// possible. Without a destination, the stop on which the path rests is counted last. Throws
-// std::invalid_argument if the path realizes no sequence of the class.
+// possible. If the agent rests on its last stop, the stop on which the path rests is counted last.
+// Throws std::invalid_argument if the path realizes no sequence of the class.
 Sequence realized_sequence(const SequenceStages& goals, const Path& path);
 
 }  // namespace grove::detail

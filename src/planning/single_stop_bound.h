@@ -23,8 +23,8 @@ class SingleStopBound {
       : world_(world), intervals_(intervals) {}
 
   // Returns a lower bound on the cost of a path through all stops under the intervals, at least the
-  // known lower bound `known_bound`; kNever if no path exists. If a limit is reached, it examines
-  // fewer stops.
+  // known lower bound `known_bound`; kNever: proven that no path exists. If a limit is reached, it
+  // examines fewer stops.
   Time min_cost(const AgentStops& stops, Time known_bound, const Limits& limits);
 
  private:

@@ -30,8 +30,8 @@ class StopDominance {
     return static_cast<std::size_t>(stage) < by_stage_.size() && by_stage_[stage] != kNone;
   }
   // Returns a lower bound on the cost of the useful paths through a label: the least f over the
-  // onward ports, where the gate of a port can postpone the visit of its stop. kNever or more if no
-  // path is useful. Requires any(stage).
+  // onward ports, where the gate of a port can postpone the visit of its stop. kNever if no path is
+  // useful. Requires any(stage).
   Time min_cost(const SequenceStages& goals, StageId stage, State state, Time time) const;
 
  private:

@@ -10,8 +10,8 @@
 
 namespace grove::detail {
 
-// A side of "later" is a `norest` constraint on the goal of its agent, which only the instance
-// contains. constraint_of() gives this constraint the place kSomeGoal.
+// A side of "later" is a `norest` constraint on the goal of its agent. A certificate does not state
+// this goal, so constraint_of() gives the constraint the place kSomeGoal.
 inline constexpr std::int32_t kSomeGoal = -1;
 CertificateConstraint constraint_of(const CertificateLate& side);
 
@@ -28,7 +28,7 @@ class ActiveConstraints {
   // True if `constraint` is active. Does not report a constraint that is active only through a side
   // of "later", because the goal in such a side is not known.
   bool has(const CertificateConstraint& constraint) const;
-  // True if `side` would add no constraint to the active ones.
+  // True if `side` is known to add no constraint to the active ones.
   bool has_side(const CertificateConstraint& side) const;
   // True if `constraint` is one of the constraints that `side` adds. *this must hold the
   // constraints that are active without `side`. The result is correct only for valid proofs.

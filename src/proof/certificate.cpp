@@ -7,8 +7,8 @@
 // split_tree.h).
 //
 // 2. The second pass descends from the roots as far as the bound requires (proof_forest.h), and
-// collects the lemmas that the leaves need. From the lemmas that a leaf could name, it removes one
-// after another as long as the others suffice, first those that no earlier leaf needs.
+// collects the lemmas that the leaves need. From the lemmas that a leaf could name, it removes each
+// one without which the others suffice, first those that no earlier leaf needs.
 //
 // 3. The third pass writes the needed lemmas and the trees.
 //

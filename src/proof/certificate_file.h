@@ -33,8 +33,8 @@ class CertificateBytes {
   std::optional<ZstdDecompressor> stream_;
 };
 
-// Writes a certificate file. The file appears completely at commit(), or not at all. One thread at
-// a time.
+// Writes a certificate file by AtomicFile: it appears completely at commit(), or not at all, except
+// that special files are written directly. All functions throw InputError. One thread at a time.
 class CertificateOutput {
  public:
   CertificateOutput(const std::filesystem::path& file, bool compressed);

@@ -23,7 +23,7 @@ struct CertificateConstraint {
   AgentIndex agent = 0;
   Kind kind = Kind::kVertexOrEdge;
   // kStop and kNoStop: p is the position of the stop, q its task. Others: p and q are the places,
-  // in the order of the line.
+  // in the order of the line. kNoRest and kRest: both `begin` and `end` are the time.
   std::int32_t p = 0;
   std::int32_t q = 0;
   std::int32_t begin = 0;
@@ -66,8 +66,9 @@ class CertificateVisitor {
 };
 
 // Parses a certificate. If `instance` is not nullptr, checks that the certificate has the checksum
-// of this instance and that its numbers of agents, places and tasks exist. Buffers the current line
-// and some text after it. Throws InputError, whose message names `file`.
+// of this instance, that the agents, places and tasks in it exist, and that each agent of "later"
+// has a goal. Buffers the current line and some text after it. Throws InputError, whose message
+// names `file`.
 void read_certificate_lines(const std::string& file, ByteSource bytes, const Instance* instance,
                             CertificateVisitor& visitor);
 

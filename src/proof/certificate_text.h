@@ -17,9 +17,9 @@ struct CertificateText {
   bool may_follow = true;  // false: the theorem is about plans without following
 };
 
-// Reads a certificate of `instance` with at most `max_splits` splits, including those in lemmas.
-// Checks the checksum of the instance, the grammar of all lines, and that the numbers in them
-// exist, but not that the certificate proves anything. Throws InputError.
+// Reads a certificate of `instance` with at most `max_splits` splits, including those in lemmas,
+// and at most 16 MiB of uncompressed text. Checks it as read_certificate_lines() does, which does
+// not verify that the certificate proves anything. Throws InputError.
 CertificateText read_certificate(const std::filesystem::path& path, const Instance& instance,
                                  std::int64_t max_splits);
 

@@ -3,7 +3,7 @@
 // constraints.
 //
 // The remaining proofs are valid by the rules of docs/proof.md and use only constraints and lemmas
-// that they used before. The following parts are removed:
+// that they used before, or earlier lemmas that imply these. The following parts are removed:
 //
 // - *Splits with a redundant side.* One side of the split adds only constraints that are already
 //   active. The proof below this side also proves the node, because it has the same active

@@ -34,8 +34,8 @@ class KeptParts : public CertificateVisitor {
   void rows_end() final;
 
  protected:
-  // Called at each split that is not skipped. `number` numbers all splits of the certificate,
-  // including skipped ones. Returns the part to keep; kSecond skips the first side.
+  // Called at each split that is not skipped. `number`: index of the split among all splits of the
+  // certificate, including skipped ones. Returns the part to keep; kSecond skips the first side.
   virtual Keep begin_split(std::size_t number, const Fork& fork) = 0;
   virtual void begin_side(int /*which*/) {}
   // Called after the first side, even if it was skipped. Returns the part to keep; kFirst skips the

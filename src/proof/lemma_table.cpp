@@ -76,7 +76,8 @@ LemmaTable::Leaf LemmaTable::leaf(std::span<const LemmaNumber> named, Cost bound
   return leaf;
 }
 
-// Returns the named lemmas without duplicates and without those whose bound is 0.
+// Returns the named lemmas, each replaced by its `same_as`, without duplicates and without those
+// whose bound is 0.
 std::vector<LemmaNumber> LemmaTable::worth_naming(std::span<const LemmaNumber> named) const {
   std::vector<LemmaNumber> names;
   for (const LemmaNumber name : named)

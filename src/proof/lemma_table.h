@@ -17,7 +17,7 @@ namespace grove::detail {
 struct TableLemma {
   std::vector<AgentIndex> agents;
   Cost bound = 0;
-  std::vector<CertificateConstraint> constraints;  // those that its proof needs; ascending
+  std::vector<CertificateConstraint> constraints;  // ascending; at least those its proof needs
   LemmaNumber same_as = 0;  // an earlier lemma that implies this one, or this one
 };
 
@@ -32,8 +32,8 @@ class LemmaTable {
   const TableLemma& operator[](LemmaNumber number) const { return lemmas_[number]; }
   std::size_t size() const { return lemmas_.size(); }
 
-  // The lemmas that a leaf must name, ascending; `by_lemmas` is true if they prove its bound for
-  // any costs of agents.
+  // The lemmas that a leaf should name, ascending. `by_lemmas`: they are known to prove its bound
+  // for any costs of agents.
   struct Leaf {
     std::vector<LemmaNumber> names;
     bool by_lemmas = false;

@@ -18,7 +18,7 @@ class LineStream {
  public:
   static constexpr std::size_t kMaxLineLength = std::size_t{1} << 22;  // bytes of a line
   // kLine: line() is the next line. kNone: the text has ended. kUnterminated: the text ends within
-  // a line. kTooLong: the line is longer than kMaxLineLength.
+  // a line. kTooLong: the line is longer than kMaxLineLength, which is tested once per 64 kB.
   enum class Next : std::uint8_t { kLine, kNone, kUnterminated, kTooLong };
 
   explicit LineStream(ByteSource source);

@@ -20,9 +20,9 @@ void ProofForest::visit(Cost bound, ForestVisitor& visitor) {
 }
 
 // Visits the proof for `trees`, which agree on all stops before stop `number` of `agent`. Splits on
-// whether this stop is that of the first tree, and continues stop by stop until one tree is left.
-// If `trees` is empty, the individual costs of the agents suffice, as for all joint sequences
-// without a tree.
+// whether this stop is that of the first tree, and continues stop by stop until all stops are fixed
+// or no tree is left. If `trees` is empty, the individual costs of the agents suffice, as for all
+// joint sequences without a tree.
 void ProofForest::visit(const Trees& trees, std::size_t agent, std::size_t number,
                         ForestVisitor& visitor) {
   if (trees.empty()) return visitor.leaf(nullptr);

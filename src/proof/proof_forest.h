@@ -30,6 +30,7 @@ class ProofForest {
 
   // Returns the bound that the trees prove, at most `claimed`. Call it before visit().
   Cost value(Cost claimed);
+  // Visits the proof of `bound`, which must be at most value().
   void visit(Cost bound, ForestVisitor& visitor);
 
  private:

@@ -43,19 +43,19 @@ class ProofRecords : public ProofLog {
   void prices(Cost bound, std::span<const RowMultiplier> rows) override;
   void joint(Cost bound) override;
 
-  // Removes records that name missing lemmas. A lemma is missing if its process was killed before
-  // it wrote the lemma.
+  // Removes splits and excesses that name missing lemmas, and lowers the bounds of the nodes
+  // accordingly. A lemma is missing if the log of its process is incomplete or was removed.
   void drop_records_without_lemmas();
 };
 
 // Default effort limit of covered() and leave_out().
 inline constexpr std::int64_t kCoveringSteps = 100'000;
-// Returns the excess that `excesses` together imply (search/covering.h). `steps` limits the effort.
-// With 0 steps it only adds excesses of groups without a common agent.
+// Returns a lower bound on the excess that `excesses` together imply (search/covering.h). `steps`
+// limits the effort. With 0 steps it only adds excesses of groups without a common agent.
 Cost covered(std::span<const ProofExcess> excesses, std::int64_t steps = kCoveringSteps);
 
-// Removes excesses one after another, from the last to the first, as long as the remaining ones
-// imply at least `wanted`.
+// Removes, from the last to the first, each excess without which the remaining ones imply at least
+// `wanted`.
 void leave_out(std::vector<ProofExcess>& excesses, Cost wanted,
                std::int64_t steps = kCoveringSteps);
 

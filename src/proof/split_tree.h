@@ -21,8 +21,8 @@ class SplitTree {
   // costs of the agents at the root.
   Cost value(ProofKey root, Cost cost);
 
-  // Calls leaf(entry or nullptr) and split(entry) in the order of the certificate, after value().
-  // nullptr: the individual costs of the agents suffice.
+  // Calls leaf(entry or nullptr) and split(entry) for the proof of `bound`, in the order of the
+  // certificate. nullptr: the individual costs of the agents suffice. Call value() first.
   template <class Leaf, class Split>
   void walk(ProofKey root, Cost cost, Cost bound, Leaf leaf, Split split) {
     std::vector<std::pair<ProofKey, Cost>> left{{root, cost}};

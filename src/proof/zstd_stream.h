@@ -39,7 +39,7 @@ class ZstdDecompressor {
   explicit ZstdDecompressor(Source source);
 
   // Reads `size` decompressed bytes, or fewer at the end of the input (also if a frame is
-  // incomplete) and if the stream is broken. Returns their number.
+  // incomplete) or if the stream is broken. Returns their number.
   std::size_t read(char* bytes, std::size_t size);
   // True if the input is not a valid zstd stream.
   bool broken() const { return broken_; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The Hungarian method in the form of successive shortest augmenting paths (Kuhn 1955; Jonker and
 // Volgenant 1987). Rows are added one by one, each along a shortest augmenting path in reduced
-// costs. The dual variables of rows and columns (here: prices) keep the reduced costs non-negative.
+// costs. The dual variables of rows and columns keep the reduced costs non-negative.
 #include "sequencing/assignment.h"
 
 #include <algorithm>

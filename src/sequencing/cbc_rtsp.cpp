@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Solves rTSPs as integer programs with CBC, as in the paper. This back end serves as an
-// independent check of the dynamic programs, and for cost structures that they do not cover.
+// independent check of the dynamic programs.
 //
 // *Formulation.* First the class is contracted: its prefix becomes the start, and the legs from the
 // start to forbidden next stops are removed. The remaining problem is a shortest Hamiltonian path
@@ -171,8 +171,8 @@ class PathProgram {
   int outside() const { return places_ - 1; }
   bool stopped() const { return limits_.stop_requested(); }
 
-  // Loads one column per leg. It has a 1 in three rows: the rows for leaving the first place, for
-  // entering the second place, and for the pair if both are stops.
+  // Loads one column per leg. It has a 1 in the row for leaving the first place, in the row for
+  // entering the second place and, if both are stops, in the row for this pair.
   void load() {
     std::vector<int> rows;
     std::vector<int> columns;

@@ -12,7 +12,8 @@
 
 namespace grove::detail {
 
-// Least cost of each leg of one agent, in steps; kNever if no path exists. A leg from a stop costs
+// Least cost of each leg of one agent, in steps; kNever if no path exists or, for legs from the
+// start, if the agent must first complete a task execution at another stop. A leg from a stop costs
 // the least distance from any base state on this stop. Row-major (n+1) x (n+1) for n stops: entry
 // (i, j) is the leg from stop i to stop j; row n has the legs from the start of the agent, and
 // column n those to its place of rest (zero if the agent rests on its last stop). Entry (n, n) is

@@ -11,8 +11,8 @@
 // states that a path of the class can reach within the limit. So its outside_bound() is a lower
 // bound on paths instead of sequences, and its cost to go of a state is a lower bound on the paths
 // that continue from this state. If the graph by direct legs becomes too large as well, extend()
-// fails, and fails immediately when it is called again with the same or a greater reach, so that no
-// time or memory is spent.
+// fails, and fails immediately when it is called again with the same or a greater cost limit, so
+// that no time or memory is spent.
 #include "sequencing/cost_to_go.h"
 
 #include <algorithm>
@@ -285,8 +285,8 @@ bool CostToGo::extend(Time cost_limit, const Limits& limits) {
   return true;
 }
 
-// A table is kept: it is complete or empty, and no search uses an empty table, so its results do
-// not depend on earlier calls of extend().
+// A table is kept: it is complete or empty, and no search uses an empty table, so the results of a
+// search do not depend on earlier calls of extend().
 void CostToGo::reset() {
   if (store_->is_all_or_nothing()) return;
   resets_ = true;

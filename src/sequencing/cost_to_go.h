@@ -19,7 +19,7 @@ namespace grove::detail {
 // Exact costs to go of one agent, for every sequence cheaper than outside_bound(). Small problems
 // use a table of all states, larger ones a sequence graph that grows on demand. Initially the store
 // is empty, so call extend(). Any number of threads may read an object while no thread changes it.
-// Copies share the stores built so far but are widened separately, so different threads may use
+// Copies share the stores built so far but are extended separately, so different threads may use
 // different copies.
 class CostToGo {
  public:
@@ -30,7 +30,7 @@ class CostToGo {
   // read. `direct`: if given, a graph with more than kMaxStates states is replaced by a graph by
   // direct legs, i.e. of the routes of an agent that visits each plain stop that it passes.
   explicit CostToGo(CostMatrix matrix, SharedArray table = {}, MakeDirectLegs direct = {});
-  // Returns the costs to go for one sequence class, because a graph by direct legs is valid for one
+  // Returns separate costs to go for one sequence class; a graph by direct legs is valid for one
   // class only. Returns nullopt if *this can be used for `sequence_class`.
   std::optional<CostToGo> of_class(const SequenceClass& sequence_class) const;
   // Size in bytes of a table for `stops` stops with `ports` ports each, with 16-bit entries
@@ -55,13 +55,13 @@ class CostToGo {
   Time cost_to_go(StopSet left, int port) const;
 
   // A proven lower bound on the cost of every complete sequence (relaxation_bound() in rtsp.h),
-  // independent of the known states.
+  // independent of the known states. 0 for a store of in_order().
   Time relaxed_bound() const;
 
   // Extends the store such that outside_bound() > `cost_limit`; outside_bound() never decreases.
-  // Returns false and changes nothing if a limit of the run was reached, if the graph would have
-  // more than kMaxDirectStates states, or for a store of in_order(). Requires `cost_limit` <
-  // kNever.
+  // Returns false and changes nothing if a limit of the run was reached, if a graph by direct legs
+  // would have more than kMaxDirectStates states, or for a store of in_order(). Requires
+  // `cost_limit` < kNever.
   bool extend(Time cost_limit, const Limits& limits);
 
   // Undoes all calls of extend() since mark(), or since construction, because the results of a

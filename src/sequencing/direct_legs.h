@@ -24,8 +24,8 @@ class DirectLegs {
   DirectLegs(CostMatrix direct, const CostMatrix& matrix);
 
   Time leg(int from, int to) const { return direct_.cost(from, to); }
-  // Ports h such that, for some third port q, the direct leg from `port` to h plus the least cost
-  // from h to q is less than the direct leg from `port` to q.
+  // Ports h such that, for some port q of a stop other than those of `port` and h, the direct leg
+  // from `port` to h plus the least cost from h to q is less than the direct leg from `port` to q.
   const std::vector<int>& hops(int port) const { return hops_[static_cast<std::size_t>(port)]; }
   const CostMatrix& matrix() const { return direct_; }
   // True if every finite direct leg has the parity of the corresponding entry in the matrix.

@@ -59,7 +59,7 @@ class HeldKarpTable {
   }
 
   // Builds the table, in `shared` if that has room. Returns false, and builds nothing, if a limit
-  // was reached or memory is not available.
+  // was reached, the table would be too large or memory is not available.
   bool build(const CostMatrix& matrix, const Limits& limits, SharedArray shared = {}) {
     stops_ = matrix.stops();
     ports_ = matrix.ports;
@@ -82,7 +82,7 @@ class HeldKarpTable {
   }
 
   // The least cost from `port` through all stops of `left` to the end; kNever if no such route
-  // exists.
+  // exists. Requires built().
   Time cost_to_go(StopSet left, int port) const {
     const Entry cost = table_[left * static_cast<StopSet>(stops_ * ports_) + port];
     return cost == kUnreachable<Entry> ? kNever : Time{cost};

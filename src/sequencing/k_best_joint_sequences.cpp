@@ -48,7 +48,7 @@ class KBestJointSequences::Queue {
       const Cost bound = cost_bound(entry);
       if (bound == key && list.known(entry.rank)) return give(entry, key);
       if (bound < kInfiniteCost) queue_.push(bound, entry);
-      if (bound == key) break;  // neither known nor proven to cost more: a limit was reached
+      if (bound == key) break;  // not known, not proven to cost more: limit or solver stop
     }
     return std::nullopt;
   }

@@ -34,7 +34,8 @@ class KBestJointSequences {
   // kInfiniteCost: proven that none is left. Never decreases.
   Cost lower_bound() const;
   // Returns the next joint sequence in order of cost. Returns nullopt if all were returned
-  // (lower_bound() is then kInfiniteCost) or a limit was reached.
+  // (lower_bound() is then kInfiniteCost), or if a limit was reached or a solver stopped
+  // (RtspAnswer::kStopped).
   std::optional<JointSequence> next();
 
   // Returns the agent's sequence of this rank, which next() must have returned.

@@ -11,8 +11,7 @@
 namespace grove::detail {
 
 // The list of all complete sequences of one agent in ascending order of cost, from rank 0. One
-// thread at a time. Discard the list after an exception (std::bad_alloc), because its bounds are
-// then not valid.
+// thread at a time. Discard the list if a method throws, because its bounds are then not valid.
 class KBestSequences {
  public:
   // `solver` must have been made for `matrix`. `matrix` and `limits` must outlive the list.
@@ -29,7 +28,8 @@ class KBestSequences {
   // True if the sequence of this rank is computed; cost_bound() is then its cost.
   bool known(std::size_t rank) const;
   // Searches until `rank` is known, its cost is proven to exceed `cutoff` (kNever: no cutoff), it
-  // is proven that no such sequence exists, or a limit is reached. Returns cost_bound(rank).
+  // is proven that no such sequence exists, or a limit is reached or the solver stops
+  // (RtspAnswer::kStopped). Returns cost_bound(rank).
   Time resolve(std::size_t rank, Time cutoff);
   // Returns the sequence of a known rank. The reference is valid as long as the list lives.
   const Sequence& sequence(std::size_t rank);

@@ -17,11 +17,11 @@ class OneTreeRelaxation {
   // The part of a bound over one set of stops that does not depend on the stop from which the agent
   // comes.
   struct Tail {
-    std::int64_t tree = 0;      // fixed point; all except the first and the last leg
-    int nearest_to_end = 0;     // the stop with the cheapest last leg
-    int second_to_end = 0;      // with the next cheapest; the same if it is the only stop
-    std::int64_t last_leg = 0;  // costs of these two last legs, in fixed point
-    std::int64_t second_leg = 0;
+    std::int64_t tree = 0;   // the bound without the first and the last leg, in fixed point
+    int nearest_to_end = 0;  // the stop with the cheapest last leg
+    int second_to_end = 0;   // the stop with the next cheapest one; nearest_to_end if it is alone
+    std::int64_t last_leg = 0;    // cost of the last leg from nearest_to_end, in fixed point
+    std::int64_t second_leg = 0;  // the same from second_to_end
   };
 
   // Optimizes the potentials in at most 400 iterations, each with a spanning tree over all stops.

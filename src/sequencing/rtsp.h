@@ -34,7 +34,8 @@ struct RtspAnswer {
     kAboveCutoff,  // proven: the optimum exceeds the cutoff (or there is none); `cost` is a proven
                    // lower bound > cutoff
     kInfeasible,   // proven: the class has no sequence of finite cost
-    kStopped,      // a limit was reached; `cost` is a proven lower bound, perhaps 0
+    kStopped,      // a limit was reached, or the back end needs too much memory; `cost` is a proven
+                   // lower bound, perhaps 0
   };
   Kind kind = Kind::kStopped;
   Time cost = 0;  // of the whole sequence, including the prefix
@@ -48,14 +49,15 @@ class RtspSolver {
 
   // Computes the least cost of the class `sequence_class`, or proves that it exceeds `cutoff`. A
   // back end may return kExact even above the cutoff. `sequence_class.prefix` must not repeat a
-  // stop.
+  // stop. The CBC back end throws std::runtime_error if CBC returns a wrong result.
   virtual RtspAnswer best(const SequenceClass& sequence_class, Time cutoff) = 0;
 
-  // Returns a complete sequence of the class whose cost is the optimum. Call only if best(work,
-  // ...) returned kExact.
+  // Returns a complete sequence of the class whose cost is the optimum. Call only if best()
+  // returned kExact for this class.
   virtual Sequence best_sequence(const SequenceClass& sequence_class) = 0;
 
-  // Returns a proven lower bound on the cost of every complete sequence, without search.
+  // Returns a proven lower bound on the cost of every complete sequence, without search. kNever:
+  // proven that none exists.
   virtual Time root_bound() const = 0;
 };
 
@@ -74,8 +76,9 @@ inline bool is_built(RtspBackend backend) {
 }
 
 // Makes a solver. `matrix` and `limits` must outlive it. Throws std::invalid_argument if the back
-// end is not built. A table that does not fit into the memory limit is not built; the answers are
-// then kStopped, and the run stops (Limits::memory_exhausted).
+// end is not built. A table that does not fit into the memory limit, or would be for more than
+// kMaxTableStops stops, is not built; the answers are then kStopped, and the run stops
+// (Limits::memory_exhausted).
 std::unique_ptr<RtspSolver> make_rtsp_solver(RtspBackend backend, const CostMatrix& matrix,
                                              const Limits& limits);
 
@@ -95,9 +98,9 @@ std::unique_ptr<RtspSolver> make_bounded_dp(const CostMatrix& matrix, const Limi
                                             std::size_t max_states = kMaxGraphStates);
 std::unique_ptr<RtspSolver> make_cbc_rtsp(const CostMatrix& matrix, const Limits& limits);
 
-// Returns a proven lower bound on the cost of every complete sequence of `matrix` by a relaxation,
-// spanning trees under node potentials. kNever: proven that none exists. Takes about 0.1 ms for 10
-// stops and 2 ms for 36; usually within 1 % of the optimum.
+// Returns a proven lower bound on the cost of every complete sequence of `matrix` by a relaxation
+// (spanning trees under node potentials). kNever: proven that none exists. Takes about 0.1 ms for
+// 10 stops and 2 ms for 36; usually within 1 % of the optimum.
 Time relaxation_bound(const CostMatrix& matrix);
 
 }  // namespace grove::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Best member of a sequence class, given exact costs to go. The dynamic programs share this code,
-// in which the prefix of a class leads to a state from which the sequence continues. For matrices
-// with one port per stop.
+// Best member of a sequence class, given exact costs to go. The dynamic programs share this code:
+// the prefix of a class leads to a state, and the costs to go complete the sequence from there. For
+// matrices with one port per stop.
 #pragma once
 
 #include "model/assert.h"
@@ -31,8 +31,8 @@ inline ClassRoot class_root(const CostMatrix& matrix, const SequenceClass& seque
   return root;
 }
 
-// Returns the cost of the cheapest complete sequence of a class, given cost_to_go(left, stop): the
-// least cost from `stop` through all stops of `left` to the end.
+// Returns the cost of the cheapest complete sequence of a class; kNever if there is none of finite
+// cost. cost_to_go(left, stop): the least cost from `stop` through all stops of `left` to the end.
 template <class Completion>
 Time best_cost(const CostMatrix& matrix, const ClassRoot& root, const Completion& cost_to_go) {
   if (root.left == 0) return add_costs(root.cost, matrix.to_end(root.last));
@@ -44,8 +44,8 @@ Time best_cost(const CostMatrix& matrix, const ClassRoot& root, const Completion
   return add_costs(root.cost, best);
 }
 
-// Returns a member of that cost; of several, the first one in lexicographic order. The class must
-// not be empty.
+// Returns a cheapest member of a class; of several, the first one in lexicographic order.
+// `cost_to_go` is as for best_cost(). The class must not be empty.
 template <class Completion>
 Sequence best_member(const CostMatrix& matrix, const SequenceClass& sequence_class,
                      const Completion& cost_to_go) {

@@ -16,7 +16,7 @@
 //
 // *Consequence.* At the first dropped state of a sequence, g + b is at most the cost of the
 // sequence. So outside_bound(), the least g + b of all dropped states, is a lower bound on the cost
-// of all sequences outside the graph, and a build with a reach below outside_bound() adds no
+// of all sequences outside the graph, and a build with a cost limit below outside_bound() adds no
 // sequence.
 //
 // *Ports.* If stops have several ports (cost_matrix.h), a state has one g per port. The statements
@@ -25,9 +25,9 @@
 // *Backward pass.* It computes the exact cost to go within the graph, which is also the exact cost
 // to go over all sequences that cost less than outside_bound().
 //
-// *Parity.* On a grid all paths between two cells have the same parity, and so have all complete
-// sequences, even if tasks take time. If the matrix has this property (the code verifies it), g + b
-// is rounded up to that parity.
+// *Parity.* On a grid all paths between two cells without waits and turns have the same parity, and
+// so have all complete sequences, even if tasks take time. If the matrix has this property (the
+// code verifies it), g + b is rounded up to that parity.
 //
 // *Direct legs.* Problem: in an aisle a sequence can skip any stops on the way in and visit them on
 // the way out, at the same cost, so 2^n states are on optimal sequences. However, an agent that
@@ -41,15 +41,15 @@
 // the path into segments that pass no other plain stop, and each segment costs at least its direct
 // leg. *Consequence.* With c(S, v, w) as the cost from v to w, g of a state is at most the cost of
 // any path to this state. So the invariant holds for paths: every state of a path that costs <=
-// reach is kept, and outside_bound() is a lower bound on the cost of all paths with a state outside
-// the graph. b remains a lower bound, because a direct leg costs no less than the leg of the
-// matrix. Legs of the prefix, and the leg to the first free stop, can pass any stop, so they have
-// the costs of the matrix. The graph is valid only for this class, because a different prefix
+// cost_limit is kept, and outside_bound() is a lower bound on the cost of all paths with a state
+// outside the graph. b remains a lower bound, because a direct leg costs no less than the leg of
+// the matrix. Legs of the prefix, and the leg to the first free stop, can pass any stop, so they
+// have the costs of the matrix. The graph is valid only for this class, because a different prefix
 // reaches states that no path of this class can reach.
 //
 // *Passed stops.* If the caller needs only a cheapest member of one class, the graph holds the
 // canonical sequences of the class (passed_stops.cpp). The invariant and outside_bound() then refer
-// to canonical sequences, of which one is a cheapest member.
+// to canonical sequences. One of them is a cheapest member.
 //
 // *Pairs.* For stops in a row the relaxation is weak at states that leave gaps. So with direct legs
 // b is at least the cost of visiting any two of the stops left, in the better order, and then going
@@ -78,7 +78,7 @@ namespace {
 
 constexpr std::size_t kPollInterval = 32;  // nodes; each takes a few microseconds
 constexpr std::size_t kCountedExcess =
-    4096;  // drop() counts only costs less than this above `cost_limit`
+    4096;  // drop() counts only costs at most this much above `cost_limit`
 
 }  // namespace
 
@@ -139,8 +139,8 @@ class SequenceDagBuilder {
     Stop stop;
   };
 
-  // Adds the states in which the first free stop after the prefix has just been visited. Returns
-  // the number of free stops.
+  // Adds the states in which the first free stop after the prefix has just been visited; for a
+  // complete prefix, the state at its end. Returns the number of free stops.
   int reach_first_states() {
     constexpr int kStart = -1;
     int last = kStart;
@@ -175,8 +175,8 @@ class SequenceDagBuilder {
 
   static Time least(const PortCosts& costs) { return *std::ranges::min_element(costs); }
 
-  // Adds the state (left, stop), reached at `costs` by port. Drops the ports with g + b > reach_,
-  // and the state if no port remains.
+  // Adds the state (left, stop), reached at `costs` by port. Drops the ports with g + b >
+  // cost_limit_, and the state if no port remains.
   void reach_state(StopSet left, int stop, PortCosts costs) {
     if (least(costs) >= kNever) return;
     const std::uint32_t number =
@@ -210,8 +210,8 @@ class SequenceDagBuilder {
       cost = kNever;
     }
   }
-  // Returns the bound of the paragraph "Pairs": the maximum, over pairs of stops left, of the cost
-  // of the cheaper order.
+  // Returns the bound of the paragraph "Pairs": the maximum, over single stops and pairs of stops
+  // left, of the cost of the cheapest order.
   Time bound_of_pairs(StopSet left, int from) const {
     Time bound = 0;
     for_each_stop(left, [&](int one) {
@@ -246,8 +246,9 @@ class SequenceDagBuilder {
     ++dropped_[excess];
   }
 
-  // The least cost limit up to which the number of dropped costs is at least half the number of
-  // stored costs. The successors of the newly admitted states add about as many again.
+  // Returns the least cost limit, at least outside_bound(), up to which the number of dropped costs
+  // is at least half the number of stored costs; if too few were dropped, a limit that admits all
+  // that were counted. The successors of the newly admitted states add about as many again.
   Time next_cost_limit() const {
     std::size_t count = 0;
     for (std::size_t excess = 0; excess < dropped_.size(); ++excess)
@@ -286,7 +287,8 @@ class SequenceDagBuilder {
     group_index_ = {};
   }
 
-  // Expands every node of [begin, end) to every stop left. Returns false if a limit was reached.
+  // Expands every node of [begin, end) to every stop left. Returns false if a limit was reached or
+  // the graph is too large.
   bool expand(std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (i % kPollInterval == 0 && !may_continue()) return false;
@@ -360,8 +362,8 @@ class SequenceDagBuilder {
     return costs;
   }
 
-  // Tests the limits. Any vector can double its capacity when it grows, so the test requests the
-  // current memory a second time.
+  // Tests the limits and the size of the graph. Any vector can double its capacity when it grows,
+  // so the test requests the current memory a second time.
   bool may_continue() {
     const std::size_t bytes = dag_.nodes_.capacity() * sizeof(SequenceDag::Node) +
                               dag_.cost_to_go_.capacity() * sizeof(Time) + dag_.index_.bytes() +
@@ -462,7 +464,7 @@ class SequenceDagBuilder {
   std::vector<Group> groups_;
   std::vector<OneTreeRelaxation::Tail> tails_;  // by node of the last layer
   std::vector<State> states_;
-  std::vector<std::size_t> dropped_;  // number of dropped costs, by excess over reach_ minus 1
+  std::vector<std::size_t> dropped_;  // number of dropped costs, by excess over cost_limit_ minus 1
   StopSetIndex group_index_;
   std::size_t asked_bytes_ = 0;
   // For the node in progress: cost by port of a visited stop (walk() and compute_walks()), and the

@@ -20,8 +20,9 @@ class DirectLegs;
 class PassedStops;
 class OneTreeRelaxation;
 
-// Invariant: all states of every sequence that costs less than outside_bound() are in the graph,
-// and every state stores its exact cost to go within the graph. Immutable: any thread may read it.
+// Invariant: all states of every sequence in the scope of the graph that costs less than
+// outside_bound() are in the graph, and every state stores its exact cost to go within the graph.
+// Immutable: any thread may read it.
 class SequenceDag {
  public:
   // An empty graph. `outside_bound` must be a proven lower bound on the cost of every sequence.
@@ -52,8 +53,8 @@ class SequenceDag {
   // Builds the graph of `scope` up to cost `cost_limit`. Changes `dag` only if it returns kBuilt.
   static End build(const Scope& scope, Time cost_limit, const Limits& limits, SequenceDag& dag);
 
-  // Proven lower bound on the cost of every sequence with a state outside the graph. kNever: there
-  // is no such sequence.
+  // Proven lower bound on the cost of every sequence in the scope of the graph (with `direct`: of
+  // every path of the class) that has a state outside the graph. kNever: there is none.
   Time outside_bound() const { return outside_bound_; }
 
   // The cost limit to use for the next build, at least outside_bound(). It is chosen to admit about
