@@ -12,8 +12,8 @@ namespace grove::detail::oracle {
 
 enum class Verdict : std::uint8_t {
   kSolved,
-  kInfeasible,  // every reachable joint state was expanded
-  kTooLarge,    // more states than `state_cap`, or than a key can number: no result
+  kInfeasible,  // there is no plan
+  kTooLarge,    // more joint states than `state_cap` or 64-bit keys, or too many of one agent
 };
 
 struct Answer {
