@@ -91,7 +91,8 @@ class Fuzzer {
     return work;
   }
 
-  // Returns the cost-to-go as the search uses it, as a graph, or as a graph by direct legs.
+  // Returns at random the cost-to-go that the search uses, the same as a graph, or as a graph by
+  // direct legs.
   CostToGo cost_to_go_of(const AgentStops& stops, const SequenceClass& work) {
     const CostToGo& given = stops.cost_to_go();
     switch (below(3)) {
