@@ -633,7 +633,8 @@ TEST_F(SolveCommand, IgnoresAPlanTruncatedByACrash) {
 
 // --- incumbents from heuristics and from files; incumbents written to files ---
 
-// An instance with ten agents and two doors. The search finds many better plans within a second.
+// An instance with sixteen agents and two doors. The search finds many better plans within a
+// second.
 std::string doors_instance() {
   std::string agents;
   for (int i = 0; i < 8; ++i)
