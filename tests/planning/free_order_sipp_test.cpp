@@ -168,8 +168,8 @@ TEST_P(FreeOrderSippFuzz, AgreesWithSearchByDefinition) {
   EXPECT_GT(infeasible, seeds / 4);
 }
 
-// 2^n sequences have the same cost, but only in a few of them the agent visits each stop when it
-// first passes it.
+// Up to 2^n sequences have the same cost, but only in a few of them the agent visits each stop when
+// it first passes it.
 TEST(FreeOrderSipp, RowOfTasksNeedsFewLabels) {
   for (const int n : {24, 64}) {
     const Grid grid = grid_of({std::string(static_cast<std::size_t>(n) + 4, '.'),

@@ -227,7 +227,7 @@ class Fuzzer {
   }
 
   // An MDD of the least cost must exist, and a random path of it must be valid. There must be no
-  // MDD of lower cost.
+  // MDD of a cost one lower.
   void check_mdd(AgentIndex agent, SequenceStages& goals, Time cost) {
     using Outcome = MddBuilder::Outcome;
     Mdd paths;
