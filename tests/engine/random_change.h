@@ -14,9 +14,8 @@ namespace grove::detail::testing {
 // plan executed so far; if it is 0, there are no delays.
 std::vector<Delay> random_delays(const Instance& instance, Time time, Random& random);
 
-// Returns a change that does one or more of these: it adds a task, drops a task (if there is one),
-// and closes a place or a road. The change can be impossible, for instance if it closes the cell of
-// a robot.
+// Returns a change that does one or more of these: add a task; drop a task, if there is one; close
+// a place or a road. The change can be impossible, for instance if it closes the cell of a robot.
 InstanceChange random_change(const Instance& instance, Random& random);
 
 }  // namespace grove::detail::testing

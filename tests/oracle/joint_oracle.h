@@ -13,7 +13,9 @@ namespace grove::detail::oracle {
 enum class Verdict : std::uint8_t {
   kSolved,
   kInfeasible,  // there is no plan
-  kTooLarge,    // more joint states than `state_cap` or 64-bit keys, or too many of one agent
+  // No result: there are more joint states than `state_cap` or than a 64-bit key can number, or
+  // more than 2^20 states of one agent.
+  kTooLarge,
 };
 
 struct Answer {

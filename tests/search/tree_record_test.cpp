@@ -136,8 +136,8 @@ class SmallTreeRecords : public TreeRecords {
                                           {{0, 2}, {}, {{2, 2}, {1, 2}}},
                                           {{0, 1}, Position{0, 1}}})) {}
 
-  // Expects that add() returns or throws `message` after `corrupt` has changed a record with fixed
-  // sequences. expect_free() does the same for a record with free sequences.
+  // Expects `message` from answer() after `corrupt` has changed a record with fixed sequences.
+  // expect_free() does the same for a record with free sequences.
   template <class Corrupt>
   void expect(const char* message, Corrupt corrupt) {
     TreeRecord record = record_of(fixed_->tree());

@@ -40,9 +40,9 @@ constexpr Time kMaxCost = 60;
 struct AgentState {
   Cell cell;
   std::uint32_t counted;  // bit i: stop i is counted as visited
-  int last;               // the stop counted last; -1: none, or it does not matter
-  Cell entered_from;      // in a corridor: the cell before it; kNoCell: inside since time 0
-  Cell entered_at;        // in a corridor: its first inner cell on entry
+  int last;               // the stop counted last; -1: none, or there is a destination
+  Cell entered_from;      // in a corridor entered after time 0: the cell before it; else kNoCell
+  Cell entered_at;        // its first inner cell on that entry; else kNoCell
   friend auto operator<=>(const AgentState&, const AgentState&) = default;
 };
 
