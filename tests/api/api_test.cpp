@@ -39,7 +39,7 @@ Instance small() {
                    {.id = "look", .place = Cell{2, 0}, .agents = {"red"}}});
 }
 
-// Robots that must pass each other in a corridor, an instance that takes the search hours.
+// Robots that must pass each other in a corridor two cells wide. The search takes hours.
 Instance dense_instance(int robots = 14) {
   std::vector<Agent> agents;
   for (int i = 0; i < robots; ++i)

@@ -114,7 +114,7 @@ TEST_F(CentralBoundsTest, BoundProvenOutsideTheTreeSearchCounts) {
   EXPECT_TRUE(bounds_.has_no_joint_plan());
 }
 
-// If this bound equals the cost of the incumbent, the incumbent is optimal.
+// A bound proven outside the trees can reach the cost of the incumbent, which is then optimal.
 TEST_F(CentralBoundsTest, BoundProvenOutsideTheTreesCanCloseTheGap) {
   bounds_.post(plan(), PlanSource::kStart);
   bounds_.prove(kInfiniteCost, BoundSource::kJointSearch);

@@ -103,8 +103,8 @@ TEST_F(CentralTreesTest, NoTreeIsDueWithinOmegaOfTheLastTree) {
   EXPECT_EQ(trees_->count(), 2);
 }
 
-// In the other order there would be a moment at which neither a node nor a later tree covers some
-// plan.
+// If the bound of later trees rose first, neither a node nor a later tree would cover some plans
+// until the root is pushed.
 TEST_F(CentralTreesTest, RootIsPushedBeforeTheNextBoundRises) {
   std::vector<Cost> bounds_at_push;
   nodes_.when_pushed = [&] { bounds_at_push.push_back(bounds_->trees_from()); };

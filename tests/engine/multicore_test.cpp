@@ -26,7 +26,7 @@ using testing::Crowd;
 using testing::HangLimit;
 using testing::random_crowd;
 
-// Instances that are not solved at the root but are easy: plain CBS expands some hundred nodes.
+// Instances that are not solved at the root but are easy: plain CBS expands a few hundred nodes.
 std::vector<Instance> instances() {
   std::vector<Instance> all;
   for (std::uint64_t seed = 0; seed < 12; ++seed)

@@ -10,12 +10,12 @@
 
 namespace grove::detail::testing {
 
-// Delays at most two robots. Each gets a delay of at most 12 of the `time` steps of the plan
-// executed so far.
+// Returns delays of at most two robots, each of 1 to min(12, `time`) steps. `time`: steps of the
+// plan executed so far; if it is 0, there are no delays.
 std::vector<Delay> random_delays(const Instance& instance, Time time, Random& random);
 
-// Returns a change that adds a task, drops a task, closes a cell or closes a road, or several of
-// these. The change can be impossible, for instance if it closes the cell of a robot.
+// Returns a change that does one or more of these: add a task; drop a task, if there is one; close
+// a place or a road. The change can be impossible, for instance if it closes the cell of a robot.
 InstanceChange random_change(const Instance& instance, Random& random);
 
 }  // namespace grove::detail::testing

@@ -27,7 +27,8 @@ SolveOptions plain() {
   return options;
 }
 
-// Interrupts the run after a given number of expansions.
+// Interrupts the run after a given number of expansions. Requests a checkpoint every seven
+// expansions.
 class Interrupter : public RunObserver {
  public:
   explicit Interrupter(std::int64_t after) : left_(after) {}

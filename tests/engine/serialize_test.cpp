@@ -116,7 +116,7 @@ TEST(Bytes, AreRefusedIfTruncatedOrTooLong) {
   expect_every_truncation_refused(a_plan());
 }
 
-// Every bit flip is either refused or yields a different value of the same shape.
+// Every bit flip is either refused or yields a different value.
 template <class T>
 void expect_every_bit_flip_detected(const T& value) {
   const std::string bytes = to_bytes(value);

@@ -365,7 +365,7 @@ void advance_and_check(Session& session, Time time, Random& random) {
 }
 
 // Expects that the proven bound and the status hold for the current instance. Returns 1 if the
-// oracle could solve the instance, otherwise 0.
+// oracle decided the instance, otherwise 0.
 int expect_proven(const Instance& instance, const Solution& solution) {
   const oracle::Answer truth = oracle::solve_jointly(instance, 100'000);
   if (truth.verdict == oracle::Verdict::kTooLarge) return 0;

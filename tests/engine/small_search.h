@@ -46,7 +46,7 @@ struct SmallSearch {
   NodePtr root;
 };
 
-// Bounds with values that the test sets; records the calls.
+// Bounds with values that the test sets; records the posted plans.
 struct ScriptedBounds : SharedBounds {
   bool over() const override { return is_over; }
   Cost cutoff() const override { return incumbent ? incumbent->cost : kInfiniteCost; }
@@ -65,7 +65,7 @@ struct ScriptedBounds : SharedBounds {
   std::optional<Plan> incumbent;
   Cost bound = 0;
   std::vector<std::pair<Plan, PlanSource>> posted;
-  const LocalNodes* nodes = nullptr;  // sampled at each call
+  const LocalNodes* nodes = nullptr;  // sampled in post() and nodes_changed()
   std::size_t live_when_posted = 0;
   std::size_t live_when_changed = 0;
 };

@@ -185,7 +185,8 @@ TEST(Solve, ReportedBoundNeverFalls) {
   EXPECT_NE(solution.status, Status::kInfeasible);
 }
 
-// Returns agents that change sides through two doors. The tree search finds no plan within seconds.
+// Returns an instance whose agents change sides through two doors. The tree search finds no plan
+// within seconds.
 Instance two_doors() {
   std::vector<std::string> rows(10, "....@....");
   rows[2] = rows[6] = ".........";
@@ -197,7 +198,7 @@ Instance two_doors() {
   return instance_of(rows, agents);
 }
 
-// Records the incumbents of a run.
+// Records the incumbents of a run and sets `flag` after `stop_after` of them.
 class IncumbentWatcher : public RunObserver {
  public:
   void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override {

@@ -109,8 +109,8 @@ TEST(ActionDependencyGraph, RefusesCollisions) {
 
 // Returns all dependencies by definition, as pairs: `first` must be completed before `second`
 // starts. For each place, a robot that enters it after another robot waits until that robot has
-// left. The actions of one agent depend on each other in order. close_transitively() adds the
-// implied dependencies.
+// left, except within one rotation. The actions of one agent depend on each other in order.
+// close_transitively() adds the implied dependencies.
 std::set<std::pair<ActionIndex, ActionIndex>> all_waits(const World& world,
                                                         const ActionDependencyGraph& order,
                                                         const std::vector<bool>& in_rotation) {

@@ -11,12 +11,13 @@
 namespace grove::detail::testing {
 
 // A random delay schedule: some actions take longer, some robots are slower, some make long stops
-// and, with `may_fail`, some fail. It depends only on the seed, not on the times at which actions
-// start.
+// and, with `may_fail`, some fail. It depends only on the seed and `order`, not on the times at
+// which actions start. `order` must outlive this object.
 class Delays {
  public:
   Delays(const ActionDependencyGraph& order, std::uint64_t seed, bool may_fail = false);
 
+  // Returns the duration of `action`; kNever: the robot fails in it.
   Time operator()(ActionIndex action, Time begin);
   bool any_robot_fails() const { return fails_; }
 

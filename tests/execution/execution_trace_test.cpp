@@ -71,7 +71,7 @@ TEST(ExecutionTrace, OnlyRobotsBehindFailedOnesAreBlocked) {
         ASSERT_GE(s.waits_for, 0);
         has_failed |= s.waits_for == s.agent;
         held_up += s.waits_for != s.agent ? 1 : 0;
-        // If one robot waits for another, that robot is blocked, too.
+        // The robot that a blocked robot waits for is blocked, too.
         EXPECT_TRUE(std::ranges::find(all, s.waits_for, &BlockedRobot::agent) != all.end());
       }
       EXPECT_TRUE(has_failed) << seed << ", " << schedule;

@@ -76,7 +76,7 @@ class Mutation {
       }
   }
 
-  // Replaces the split at line `at` and its whole subtree by a leaf.
+  // Replaces the split at line `at`, if there is one, and its whole subtree by a leaf.
   void cut_off(int at) {
     const auto opens = [](const std::string& line) {
       return line.starts_with("split") || line.starts_with("later");

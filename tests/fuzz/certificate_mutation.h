@@ -8,9 +8,10 @@
 
 namespace grove::detail::fuzz {
 
-// Returns `lines` with one to four random mutations: a number or keyword is changed, a line is
-// removed, duplicated or swapped, or a subtree is replaced by a leaf. Often the theorem is also
-// changed to claim a higher bound, as in a forged certificate.
+// Returns `lines` (not empty) after one to four random mutations, some of which may have no effect.
+// A mutation changes a number or keyword, removes a line, inserts a copy of a line, swaps two lines
+// or replaces a subtree by a leaf. Often the theorem is also changed to claim a higher bound, as in
+// a forged certificate.
 std::vector<std::string> mutated(std::vector<std::string> lines, std::uint64_t seed);
 
 }  // namespace grove::detail::fuzz

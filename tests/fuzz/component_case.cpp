@@ -25,7 +25,7 @@ std::vector<std::string> open_board(Random& random) {
   return rows;
 }
 
-// Two rooms joined by a corridor.
+// Two rooms joined by a corridor, sometimes two cells wide.
 std::vector<std::string> corridor_board(Random& random) {
   const auto length = static_cast<std::size_t>(random.between(1, 5));
   const auto room = static_cast<std::size_t>(random.between(1, 2));
@@ -36,8 +36,8 @@ std::vector<std::string> corridor_board(Random& random) {
   return rows;
 }
 
-// Random starts and goals. Some agents with a goal have one or two tasks; agents without a goal
-// have two.
+// Random starts and goals. Some agents with a goal have one task; agents without a goal have up to
+// two.
 TinyInstance roomy_instance(std::uint64_t seed) {
   Random random(seed ^ 0x4007);
   TinyInstance instance;

@@ -16,7 +16,7 @@ enum class Part : std::uint8_t {
   kPairs,     // kTree, and WDG weights of pairs and groups, by joint MDDs and by splits
   kGroups,    // kPairs, and EPEA* for pairs and groups, from the start
   kJoint,     // EPEA* for all agents
-  kPrices,    // the Lagrangian bound at the root; the tree search stops early
+  kPrices,    // the Lagrangian bound at the root; the caller interrupts the tree search
   kSequences  // one tree for each joint sequence
 };
 
@@ -34,12 +34,13 @@ inline constexpr std::array kParts = {
     NamedPart{Part::kSequences, "sequences"},
 };
 
-// Returns the case of `seed`. Half of the cases use larger boards than random_case() does, with up
-// to four agents.
+// Returns the case of `seed`: for kAny random_case(), for other parts a case without an imposed
+// limit. Half of those have their own boards, often larger than those of random_case(), with up to
+// four agents.
 FuzzCase component_case(Part part, std::uint64_t seed);
 
 // Returns a valid plan that costs one step more than `plan`, as a start plan that the search has to
-// improve. Returns `plan` itself if no agent can wait.
+// improve. Returns `plan` itself if no single wait gives a valid plan.
 Plan higher_cost_plan(const Instance& instance, const Plan& plan);
 
 }  // namespace grove::detail::fuzz

@@ -29,8 +29,8 @@ FuzzCase read_case(const std::string& path) {
   return FuzzCase::parse(text.str());
 }
 
-// Solves `instance` with Grove. Throws std::logic_error if the search loses the optimal plan of
-// `truth`.
+// Solves `instance` with Grove. Throws std::logic_error if PlantedOptimum finds an error, for
+// instance that the search loses the optimal plan of `truth`.
 Solution solve_watched(const Instance& instance, const SolveOptions& options, const Limits& limits,
                        const oracle::Answer& truth) {
   if (!truth.plan) return solve(instance, options, limits);

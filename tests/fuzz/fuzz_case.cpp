@@ -93,7 +93,8 @@ void read_option(const std::string& line, FuzzCase& fuzz_case) {
     throw std::invalid_argument(fmt::format("did not expect the option '{}'", key));
 }
 
-// Returns all techniques, none, all except one, only one, or a random set.
+// Returns the default techniques, none, the defaults without one, a single technique, or a random
+// subset of the defaults.
 Techniques random_techniques(Random& random) {
   const Technique one = kTechniques[random.below(static_cast<int>(kTechniques.size()))].technique;
   switch (random.below(6)) {
@@ -120,14 +121,15 @@ Omega random_omega(Random& random) {
   return Omega::parse(kChoices[random.below(std::size(kChoices))]);
 }
 
-// Mostly unlimited; otherwise so small that nodes must be evicted.
+// Unlimited in half of the cases; otherwise so small that nodes must be evicted.
 std::size_t random_node_memory(Random& random) {
   constexpr std::size_t kUnlimited = SolveOptions::kUnlimited;
   return random.pick<std::size_t>({kUnlimited, kUnlimited, kUnlimited, 1'000, 3'000, 10'000});
 }
 
-// Mostly the default; otherwise a few tunables are at a bound of their range, or far from their
-// default, but not so far that the run would exceed the fuzzer's time limit.
+// In a quarter of the cases up to eight tunables are at their minimum or differ from their default
+// by a factor of up to eight, but not so far that the run would exceed the fuzzer's time limit.
+// Independently, some cases start the joint search or the Lagrangian bound at once.
 Tuning random_tuning(Random& random) {
   Tuning tuning;
   // By default tiny instances are solved before the joint search starts.

@@ -13,14 +13,14 @@ namespace grove::detail::fuzz {
 
 // Limit imposed on a run.
 enum class ImposedLimit : std::uint8_t {
-  kNothing,    // only a long deadline
+  kNothing,    // only the deadline of run_case()
   kExpired,    // the deadline has passed before the run starts
   kSoon,       // the deadline is one millisecond after the start
   kMemory,     // the memory limit is only slightly above the memory in use
   kInterrupt,  // the interrupt flag is set before the run starts
 };
 
-// As text: a TinyInstance, followed by these lines, of which any may be missing:
+// As text: a TinyInstance, optionally followed by "options" and any of the lines below it:
 //
 //     options
 //     omega 0.01
@@ -42,7 +42,7 @@ struct FuzzCase {
   ImposedLimit limit = ImposedLimit::kNothing;
 
   std::string to_text() const;
-  // Throws std::invalid_argument if `text` is not a valid case.
+  // Throws std::invalid_argument if `text` is malformed.
   static FuzzCase parse(std::string_view text);
 };
 

@@ -164,8 +164,8 @@ class Trial {
   }
 
  private:
-  // Without this, incumbents or the joint search end most runs before the tree search has proven
-  // much, and the Lagrangian bound does not run because there are too few agents.
+  // Without these options, incumbents or the joint search end most runs before the tree search has
+  // proven much, and the Lagrangian bound does not run because there are too few agents.
   void prefer_tree_and_lagrangian(std::uint64_t seed) {
     SolveOptions& options = case_.options;
     options.omega = Omega::from_double(0);

@@ -82,7 +82,8 @@ class TinyInstances {
     builder.add_task("t", task, std::vector<std::string>{instance.agent(agent).id});
     return std::move(builder).build();
   }
-  // Tests for every agent and place whether the agent can visit the place and return.
+  // Tests for every agent and place whether the agent can visit the place before all agents are
+  // back on their starts.
   void ask_for_places(const Instance& instance, const Places& starts, const std::set<Places>& all) {
     const World& world = instance.world();
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)

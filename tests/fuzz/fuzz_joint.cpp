@@ -43,8 +43,8 @@ struct Tally {
   std::vector<double> cpu_seconds = {};
 };
 
-// Returns the error in an answer, or an empty string. Records in `tally` whether the oracle found
-// an answer, too.
+// Returns the error in an answer, or an empty string. Increments `tally.compared` if the answer is
+// compared with the oracle's.
 std::string complaint(const Instance& instance, const Solution& solution, std::size_t states,
                       Tally& tally) {
   if (solution.plan && !check(instance, solution).empty()) return "the plan is invalid";

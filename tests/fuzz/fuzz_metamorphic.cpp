@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove-fuzz-metamorphic: metamorphic tests of the search. They need no oracle, so the instances
+// grove-fuzz-metamorphic: metamorphic tests of the search. Most need no oracle, so the instances
 // have up to a dozen agents, on maps with difficult shapes.
 //
 // *Property.* Let P be a valid plan of an instance, of any cost. The bound of a node whose
@@ -8,7 +8,7 @@
 // that costs at most as much as P.
 //
 // `--mode descend` follows many valid plans down the trees. The cutoffs rise and fall, and all
-// descents share one expander and its cache.
+// descents share one expander and its cache. `--mode agree` compares runs with different options.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -305,7 +305,8 @@ bool compare_histories = false;
   throw std::logic_error(text);
 }
 
-// Returns valid plans of the instance, found on its map and on maps with a few more blocked cells.
+// Returns valid plans of the instance, at most `wanted`, found on its map and on maps with a few
+// more blocked cells. Blocks no cells of a roadmap.
 std::vector<Plan> some_plans(const TinyInstance& tiny, const Instance& instance, Random& random,
                              int wanted, double seconds) {
   std::vector<Plan> plans;

@@ -82,7 +82,8 @@ INSTANTIATE_TEST_SUITE_P(, ExactMethods,
                            return name;
                          });
 
-// Returns the cost of one agent, ignoring all other agents.
+// Returns the least cost of one agent with destination `goal` and without the task `end`, ignoring
+// all other agents; kInfiniteCost if the oracle finds no plan.
 Cost single_agent_cost(const Instance& instance, AgentIndex agent, std::optional<Cell> goal,
                        TaskIndex end) {
   const Grid& grid = instance.grid();
@@ -98,8 +99,9 @@ Cost single_agent_cost(const Instance& instance, AgentIndex agent, std::optional
   return answer.plan ? answer.plan->cost : kInfiniteCost;
 }
 
-// Returns the minimum cost over all choices of distinct destinations for `agent` and all later
-// agents.
+// Returns the minimum, over all choices of distinct destinations not in `taken` for `agent` and all
+// later agents, of their costs plus Tuning::visitor_steps for every other visitor of a chosen
+// destination.
 Cost best_choice(const Instance& instance, AgentIndex agent, std::vector<Cell>& taken) {
   if (agent == instance.agent_count()) return 0;
   if (const auto goal = instance.agent(agent).goal)
@@ -184,7 +186,8 @@ class CheckedEvents : public RunObserver {
     }
   }
   bool ended() const { return ended_; }
-  // Returns whether the solution agrees with the last reported plan and bound.
+  // Returns whether the solution has the cost of the last reported plan and at least the last
+  // reported bound.
   bool is_result(const Solution& solution) const {
     return solution.lower_bound >= bound_ &&
            (solution.plan ? solution.plan->cost : kInfiniteCost) == best_;
@@ -289,10 +292,10 @@ INSTANTIATE_TEST_SUITE_P(, Adaptations,
                                            Adaptation{"Anytime", Method::kCtsCbsC, true}),
                          [](const auto& all) { return std::string(all.param.name); });
 
-// The agents cannot change places on a line, so agent 1 cannot end on its only task, which lies
-// beyond all tasks of agent 0. No constraint-tree search proves this, so method A runs until the
-// time limit. Method B then finds that its chosen destinations allow no plan, which proves nothing
-// about other destinations.
+// The agents cannot change places on a line. Agent 1 must end on its only task, and no task of
+// agent 0 lies beyond it, so there is no plan. No constraint-tree search proves this, so method A
+// runs until the time limit. Method B then finds that its chosen destinations allow no plan, which
+// proves nothing about other destinations.
 TEST(AdaptationC, ReportsStopReasonOfAIfBFindsNoPlan) {
   const Instance instance = testing::instance_of(
       {".@", "..", "@.", ".."},

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Why is losing the plan an error, although other plans can have the same cost? Only the global
-// bounds prune by bound, and they never prune nodes whose bound is below the cost of the incumbent.
-// All other operations (splitting a conflict, discarding a child, choosing the trees) must not lose
-// any plan.
+// Losing the plan is an error even if other plans have the same cost. Only the global bounds prune
+// by bound, and they never prune nodes whose bound is below the cost of the incumbent. All other
+// operations (splitting a conflict, discarding a child, choosing the trees) must not lose any plan.
 #include "tests/fuzz/planted_optimum.h"
 
 #include <fmt/format.h>
@@ -21,8 +20,8 @@ bool may_be_next(const SequenceClass& sequences, const Sequence& so_far, Stop st
   return so_far.size() > fixed || (sequences.forbidden_next >> stop & 1) == 0;
 }
 
-// Enumerates the sequences that a path realizes, where each stop counts at its first visit after
-// the previous stop's visit.
+// Enumerates the sequences of a class that a path realizes. Each stop counts at its first visit at
+// or after the visit of the previous stop.
 class RealizedSequences {
  public:
   RealizedSequences(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,

@@ -13,12 +13,12 @@
 
 namespace grove::detail::fuzz {
 
-// Follows the nodes that hold a given optimal plan, which are those whose tree allows the visit
-// orders of the plan and whose constraints the plan satisfies. From the first root that holds the
-// plan until a plan of the same cost is found, some live node must hold it, whatever the search
+// Follows the nodes that hold a given optimal plan. A node holds the plan if its tree allows the
+// visit orders of the plan and the plan satisfies its constraints. Until a plan of the same cost is
+// found, the expansion of such a node must yield a child that holds the plan, whatever the search
 // branches on or prunes. Neither these nodes nor the search as a whole may claim a bound above the
-// cost of the plan. If the last of these nodes is evicted, the search may not claim more than that
-// node's bound until it restarts.
+// cost of the plan. Once such a node is evicted, the search may not raise its lower bound above the
+// bound of that node until it restarts, except by a proof outside the trees.
 class PlantedOptimum : public RunObserver {
  public:
   // `instance` must outlive this object. `optimum` must be valid and cost-optimal.
@@ -50,14 +50,14 @@ class PlantedOptimum : public RunObserver {
   // then prune these nodes.
   std::unordered_set<const Node*> holding_;
   bool found_ = false;
-  bool raised_outside_trees_ = false;   // the next rise of the bound comes from outside the trees
+  bool raised_outside_trees_ = false;   // the next event reports a bound from outside the trees
   Cost claimed_ = 0;                    // lower bound that the search last reported
-  Cost evicted_bound_ = kInfiniteCost;  // least bound of evicted nodes that held the plan
+  Cost evicted_bound_ = kInfiniteCost;  // highest bound allowed after evictions of such nodes
   std::size_t nodes_followed_ = 0;
   std::vector<std::string> complaints_;
 };
 
-// Returns whether `path` satisfies the constraints and realizes a sequence of the class.
+// Returns whether `path` satisfies `constraints` and realizes a sequence of the class `sequences`.
 bool satisfies_all(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
                    std::span<const Constraint> constraints, const Path& path);
 

@@ -37,7 +37,7 @@ class PlantedInABay : public ::testing::Test {
   PlantedOptimum planted_{instance_, optimum_};
   const NodePtr root_ = forest_.next_root();
 
-  // Returns the child that holds the optimum.
+  // Returns a child that holds the optimum, or nullptr.
   NodePtr holder(const Expansion& expansion) const {
     for (const NodePtr& child : expansion.children)
       if (planted_.held_by(*child)) return child;
@@ -147,9 +147,9 @@ class InterruptingOptimum : public PlantedOptimum {
   std::atomic<bool> enough_{false};
 };
 
-// Solves the cases of the first `seeds` seeds that have a plan, each with at most `expansions`
-// expansions and with the options that `choose` derives from the options of the case. Calls `look`
-// with every solution and the PlantedOptimum that observed the run.
+// Solves each case of the seeds 0 to `seeds` - 1 that has a plan, with the options that `choose`
+// derives from the options of the case, and interrupts it after `expansions` expansions. Calls
+// `look` with every solution and the PlantedOptimum that observed the run.
 template <class Choose, class Look>
 void follow_optima(std::uint64_t seeds, int expansions, Choose choose, Look look) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {

@@ -80,7 +80,7 @@ struct CrowdBoard {
   std::optional<Grid> grid;
   std::optional<Roadmap> roads;
   std::vector<std::vector<Place>> next_to = {};  // by place
-  std::vector<Place> places = {};                // not blocked
+  std::vector<Place> places = {};                // those with a neighbor
   // kRooms: the places of the first room. kTail: the places of the tail, from its end.
   std::vector<Place> marked = {};
 
@@ -324,11 +324,11 @@ class CrowdMaker {
     }
   }
 
-  // Returns two agents whose swapped goals leave no plan, or nullopt if there are none. The reason
-  // depends on the kind of board:
+  // Returns two agents whose swapped goals leave no plan, or nullopt if no such pair is known. The
+  // reason depends on the kind of board:
   // - On a tree with at most one free place, the free place determines the whole configuration.
-  // - On a ring no agent can pass another. In a tail, agents cannot change their order if they have
-  //   more places of the tail in front of them than there are free places.
+  // - On a ring no agent can pass another. In a tail, agents cannot change their order if there are
+  //   more places of the tail between them and the room than free places.
   // - On a grid with one free place and without following, each step exchanges an agent and the
   //   free place. Two reachable configurations with the same free place differ by an even number of
   //   steps, hence by an even permutation; swapped goals would be an odd one. Triangles without a

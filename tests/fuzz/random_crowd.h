@@ -21,7 +21,7 @@ struct KnownCrowd {
   std::string board;
 };
 
-// Returns an instance with 10 to 2,000 agents. The same seed gives the same instance.
+// Returns an instance with about 10 to 2,000 agents. The same seed gives the same instance.
 KnownCrowd known_crowd(std::uint64_t seed);
 
 }  // namespace grove::detail::fuzz

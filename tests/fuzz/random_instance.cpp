@@ -42,8 +42,8 @@ class Maker {
   }
 
  private:
-  // Replaces the grid's adjacency by roads. Some are long, one-way, parallel or missing, and
-  // sometimes one joins distant cells.
+  // Replaces the grid's adjacency by roads. Some are long, one-way, parallel or missing. Up to two
+  // more join random cells.
   void add_roads() {
     for (const Position p : cells_)
       for (const Position q : cells_)
@@ -92,8 +92,8 @@ class Maker {
     tasks_of_.assign(instance_.agents.size(), 0);
   }
 
-  // Moves the agents at random: their final cells become destinations, and cells that they have
-  // visited become tasks.
+  // Moves the agents at random: their final cells become destinations, and the cells that they
+  // visit are possible task cells.
   void play() {
     const int agents = static_cast<int>(instance_.agents.size());
     for (int a = 0; a < agents; ++a) reach_[a] = {instance_.agents[a].start};
@@ -106,8 +106,8 @@ class Maker {
     }
   }
 
-  // Sets random destinations and tasks, rarely on unreachable cells, because presolve detects
-  // these.
+  // Sets random destinations and possible task cells, rarely unreachable ones, because presolve
+  // detects these.
   void draw_goals() {
     const bool everywhere = random_.percent(20);
     for (auto& agent : instance_.agents) agent.goal.reset();
@@ -125,6 +125,7 @@ class Maker {
   }
 
   // Turns all, some or no agents into MG agents, each with its destination as an additional task.
+  // An agent without a destination always becomes an MG agent, with a random task.
   void make_mg() {
     constexpr int kChances[] = {0, 50, 100};
     const int chance = kChances[random_.below(3)];
@@ -136,7 +137,8 @@ class Maker {
     }
   }
 
-  // Returns a task cell for `agent`; half of them are the start or destination of some agent.
+  // Returns a task cell for `agent`; up to half of these cells are the start or destination of an
+  // agent.
   Position task_cell(int agent) {
     const Position any = random_.pick(reach_[agent]);
     if (random_.percent(50)) return any;

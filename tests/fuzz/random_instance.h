@@ -15,7 +15,7 @@ TinyInstance random_instance(std::uint64_t seed);
 // Like random_instance(seed), but with exactly `agents` agents, or fewer if the map has no room.
 TinyInstance random_instance(std::uint64_t seed, int agents);
 
-// Returns an instance on a roadmap whose roads have several lengths; some are one-way or parallel.
+// Returns an instance on a roadmap with roads of random lengths, some of them one-way or parallel.
 TinyInstance random_roads(std::uint64_t seed);
 
 // Returns an instance on a grid or a roadmap, with some of: turning agents, tasks with a duration,

@@ -35,7 +35,7 @@ Rows obstacles(Random& random) {
   return rows;
 }
 
-// A corridor in the middle row with side branches of `depth` cells on both sides.
+// A corridor in the middle row with side branches of up to `depth` cells, each on a random side.
 Rows comb(int length, int depth, int branches, Random& random) {
   Rows rows = filled(length, 2 * depth + 1, '@');
   rows[depth] = std::string(static_cast<std::size_t>(length), '.');

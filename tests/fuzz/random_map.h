@@ -14,11 +14,11 @@ enum class Shape {
   kObstacles,  // random obstacles
   kCorridor,   // one cell wide
   kBays,       // a corridor with places to step aside
-  kDeadEnds,   // a corridor with side branches two deep
+  kDeadEnds,   // a corridor with side branches up to two deep
   kRooms,      // two rooms and a door
   kTree,       // no cycles
   kRing,       // one cycle, possibly with a bay
-  kTwoParts,   // two separate maps of the shapes above
+  kTwoParts,   // two open parts separated by a wall
 };
 inline constexpr int kShapeCount = 9;
 

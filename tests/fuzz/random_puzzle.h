@@ -8,9 +8,9 @@
 
 namespace grove::detail::fuzz {
 
-// Returns a puzzle with 3 to 5 agents on a board of 8 to 25 cells. Each agent has one or two tasks;
-// in half of the puzzles no agent has a destination. A plan need not exist. The same seed gives the
-// same puzzle.
+// Returns a puzzle with 3 to 5 agents on a board of 8 to 25 cells. Either each agent has one task
+// or each has two; in half of the puzzles no agent has a destination. A plan need not exist. The
+// same seed gives the same puzzle.
 TinyInstance random_puzzle(std::uint64_t seed);
 
 }  // namespace grove::detail::fuzz

@@ -51,7 +51,8 @@ class Decorator {
     }
   }
 
-  // Gives tasks a duration, also at destinations, where the finish is then later than the arrival.
+  // Gives some tasks a duration and adds such tasks on some destinations, where the finish is then
+  // later than the arrival.
   void work() {
     for (TinyInstance::Task& task : instance_.tasks)
       if (random_.percent(60)) task.duration = random_.between(1, 4);
@@ -111,7 +112,8 @@ class Decorator {
     std::erase_if(instance_.tasks, [](const auto& task) { return task.agents.empty(); });
   }
 
-  // Lets some agents start in the middle of executing one of their tasks.
+  // Lets some agents start while they execute one of their tasks. Moves the task to the start if
+  // necessary.
   void begin_work() {
     for (int a = 0; a < agents(); ++a) {
       TinyInstance::Agent& agent = instance_.agents[a];

@@ -17,7 +17,7 @@ namespace {
 using Clock = Limits::Clock;
 using std::chrono::milliseconds;
 
-// CBS need not terminate if there is no plan; the time limit is then divided by this factor.
+// CBS need not terminate if there is no plan, so the time limit is then divided by this factor.
 constexpr int kWithoutPlan = 10;
 constexpr milliseconds kSoon{1};
 constexpr milliseconds kAllowedOverrun{3000};

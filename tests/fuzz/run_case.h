@@ -26,12 +26,13 @@ struct CaseResult {
   std::vector<std::string> complaints;  // empty: no failure
 };
 
-// Time limit of a run without another limit. Reaching it is no failure: the run then counts as
-// stopped.
+// Default time limit of a run; a tenth of it applies if there is no plan. Reaching it is no
+// failure: the run then counts as stopped.
 inline constexpr std::chrono::milliseconds kPatience{2000};
 
 // Runs the oracle and `solver`, and compares their answers. A short, repeatable run that reached no
-// limit is repeated and must give the same answer.
+// limit is repeated and must give the same answer; a deterministic run is repeated with another
+// number of threads. Complains also if the solver throws or returns seconds after the deadline.
 CaseResult run_case(const FuzzCase& fuzz_case, const Solver& solver,
                     std::chrono::milliseconds patience = kPatience);
 

@@ -57,8 +57,8 @@ bool drop_roads(TinyInstance& instance, const std::function<bool(Position)>& is_
   return !instance.roads.empty();
 }
 
-// Returns the instance without this row, or nullopt if an agent, task or road uses a cell of the
-// row.
+// Returns the instance without this row and the roads at its cells. Returns nullopt if an agent or
+// task uses a cell of the row, or if no road would remain.
 std::optional<TinyInstance> without_row(TinyInstance instance, int row) {
   for (int x = 0; x < static_cast<int>(instance.rows[row].size()); ++x)
     if (in_use(instance, {x, row})) return std::nullopt;
@@ -98,7 +98,7 @@ class Steps {
     try {
       (void)candidate.instance.build();
     } catch (const std::invalid_argument&) {
-      return;  // invalid, for instance because an MG agent would have no task
+      return;  // invalid, for instance because the road on which an agent starts is gone
     }
     cases_.push_back(std::move(candidate));
   }

@@ -10,13 +10,13 @@
 
 namespace grove::detail::fuzz {
 
-// Returns all valid cases that are one step simpler: one agent, task, agent of a task, passable
-// cell, row or column is removed, or one option is reset to its default. The largest changes come
-// first.
+// Returns all valid cases that are one step simpler: an agent, task, agent of a task, road, row,
+// column or passable cell is removed; an agent, task or road is simplified; or an option is reset
+// to its default. Removals of agents and tasks come first, those of cells last.
 std::vector<FuzzCase> simpler_cases(const FuzzCase& fuzz_case);
 
-// Simplifies the case step by step while it still fails, until `limits` are reached. The result
-// fails. If no limit was reached, no case that is one step simpler fails.
+// Simplifies a failing case step by step while it still fails, until `limits` are reached. The
+// result fails. If no limit was reached, no case in simpler_cases() of the result fails.
 FuzzCase shrink(FuzzCase fuzz_case, const std::function<bool(const FuzzCase&)>& fails,
                 const Limits& limits);
 

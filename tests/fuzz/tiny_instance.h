@@ -25,7 +25,7 @@ namespace grove::detail::fuzz {
 //     2,0: 0 1       (cell: the agents that must visit it)
 //     2,0 takes 3: 0 (the task takes 3 steps)
 //
-// After an agent these fields can follow, in this order:
+// After an agent these fields can follow:
 //
 //     turn 2 N       (a quarter turn takes 2 steps; it faces north)
 //     to E 1         (it has made one step of the turn to the east)

@@ -167,7 +167,7 @@ class Writer {
   pid_t process_ = -1;
 };
 
-// Returns the name of a half-written file, any file except `other`; "" if there is none.
+// Returns the name of a half-written file other than `other`; "" if there is none.
 std::string half_written(const TemporaryDirectory& directory, const std::string& other) {
   for (const std::string& name : directory.files())
     if (name != other && file_content(directory / name) == "half") return name;

@@ -126,7 +126,7 @@ TEST(LifFile, SeveralVehicleTypesRequireAChoice) {
 }
 
 TEST(LifFile, TrajectoriesGiveTheLength) {
-  // An exact quarter circle of radius 6, followed by a polyline with a corner and the default
+  // First an exact quarter circle of radius 6, then a polyline with a corner and the default
   // degree.
   const RoadNetwork arc =
       parse_lif(with_trajectory(R"({"degree": 2.0, "knotVector": [0,0,0,1,1,1], "controlPoints": [

@@ -72,8 +72,8 @@ TEST(FinishTimeConflicts, AgreeWithJointBreadthFirstSearch) {
   EXPECT_GT(others, 200);
 }
 
-// These pairs are incompatible under sufficient limits. An MDD above its size limit proves nothing,
-// and neither does a joint search that was cut short.
+// Tests pairs that are found incompatible with sufficient limits. Neither an MDD above its size
+// limit nor a joint search that was cut short proves anything.
 TEST(FinishTimeConflicts, ProveNothingWithoutEffort) {
   constexpr FinishTimeConflicts::MaxSizes kEnough{1 << 20, 1 << 20, 1 << 28};
   int excluded = 0;

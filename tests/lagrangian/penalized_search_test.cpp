@@ -89,7 +89,8 @@ class Reference {
   const std::vector<Amount>& finish_;
 };
 
-// Returns the penalized cost of a path, summed over its steps.
+// Returns the penalized cost of a path: its finish time, the penalty on that finish, and the
+// penalties of its steps.
 ScaledCost paid_by(const Path& path, const Penalties& penalties,
                    const std::vector<Amount>& on_finish) {
   const World& world = penalties.world();

@@ -127,7 +127,7 @@ class OneHelper : public ::testing::Test {
       bound->commit(std::move(*job));
     }
   }
-  // Runs the bound until it requests pricing. Returns nullopt if it does not.
+  // Runs the bound until it requests pricing. Returns nullopt if it does not within 100 jobs.
   std::optional<PricingRequest> ask() {
     for (int i = 0; i < 100; ++i) {
       auto asked = bound->dispatch_pricing();

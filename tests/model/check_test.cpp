@@ -54,7 +54,7 @@ Solution valid_solution() {
   return solution;
 }
 
-// Returns the only violation in the valid solution after `change`, as "place: message".
+// Returns the violations of the valid solution after `change`, one line "place: message" for each.
 std::string verdict(const std::function<void(Solution&)>& change) {
   Solution solution = valid_solution();
   change(solution);
@@ -241,7 +241,7 @@ TEST(Check, AcceptsEndOfMgAgentOnlyOnItsLastTask) {
 }
 
 // Returns the violation of a plan for two agents on a 4 x 2 map without tasks; "" if it is valid.
-// The agents' starts and destinations are the ends of the paths.
+// Each path starts at its agent's start and ends at its destination.
 std::string collision(const Path& first, const Path& second) {
   InstanceBuilder builder(Grid(4, 2, std::vector<bool>(8, true)));
   const Grid grid(4, 2, std::vector<bool>(8, true));

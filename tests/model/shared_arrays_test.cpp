@@ -181,7 +181,7 @@ TEST(SharedArrays, AwaitEndsWhenTheMakerIsUnresponsive) {
   EXPECT_TRUE(is_filled(begin, 0));
 }
 
-// Returns an instance on two rows of `width` cells with many tasks. Above a width of 65,535,
+// Returns an instance on two rows of `width` cells with many tasks. With 66,000 cells per row,
 // distances do not fit in 16 bits.
 Instance many_tasks(int width, int tasks) {
   InstanceBuilder builder(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // grove-fuzz-protocol: runs the distributed protocol with events in random order and compares the
-// answers with an exhaustive search.
+// answers with the optimum.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

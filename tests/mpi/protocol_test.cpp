@@ -303,7 +303,7 @@ struct SubCoordinatorOfThree {
   SubCoordinator sub{transport, Hierarchy(9, 3), 1, Tuning()};
   double now = 0;
 
-  // Returns the last status sent to the parent in response to this message.
+  // Returns the last status sent to the parent in response to this message; empty if none was sent.
   message::Status status_after(int from, message::Message message) {
     sub.handle(from, std::move(message));
     sub.send_updates(now += 10);

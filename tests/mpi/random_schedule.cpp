@@ -15,7 +15,7 @@
 namespace grove::detail::testing {
 namespace {
 
-constexpr double kTick = 1e-4;    // s, approximate duration of a step
+constexpr double kTick = 1e-4;    // s, duration of a step
 constexpr int kLongQuiet = 3000;  // steps per rank, longer than the delay of any status or new tree
 
 using Rng = std::mt19937_64;

@@ -23,17 +23,17 @@ struct Schedule {
 struct ScheduleCounts {
   std::int64_t steps = 0;
   std::int64_t messages = 0;
-  bool ended = false;          // false: killed, or max_steps or max_turns reached
+  bool ended = false;          // false: killed, stuck, or max_steps or max_turns reached
   bool limit_reached = false;  // some rank reached a limit
   bool stuck = false;  // no message is in transit, no rank is active, and the run has not ended
   bool left_messages = false;  // a message is undelivered although all ranks have left
 };
 
 // Solves `instance`. In each step a worker performs a part of a work item or a rank polls for
-// messages, and time advances. Messages have random delays. Ranks are unresponsive for long
-// periods, sometimes just after they have received a message. After every step `look` is called
-// with the lower bound; if it returns true, all ranks are killed. Rethrows exceptions from the
-// search.
+// messages, and time advances. Messages have random delays. In the first quarter of `max_steps`,
+// ranks are unresponsive for long periods, sometimes just after they have received a message. After
+// every step of a rank `look` is called with the lower bound; if it returns true, all ranks are
+// killed. Rethrows exceptions from the search.
 Solution solve_in_random_order(const Instance& instance, const SolveOptions& options,
                                const Schedule& schedule, RunObserver& observer,
                                const std::function<bool(Cost)>& look, ScheduleCounts& counts);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests the protocol under random delays, slow ranks and unresponsive ranks against an exhaustive
-// search: the bound is valid after every step, and the answer is the optimum.
+// Tests the protocol under random delays, slow ranks and unresponsive ranks against the optimum:
+// the bound is valid after every step, and the answer makes no false claim.
 #include <gtest/gtest.h>
 
 #include "tests/mpi/try_schedule.h"

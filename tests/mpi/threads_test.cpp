@@ -86,8 +86,8 @@ class ThreadNetwork {
     int next_ = 0;
     std::int64_t polls_ = 0;
   };
-  using Link = std::deque<std::pair<std::int64_t, std::string>>;  // number of the receiver's poll
-                                                                  // that may return it, and bytes
+  // Messages in transit, each with the first poll of the receiver that may return it.
+  using Link = std::deque<std::pair<std::int64_t, std::string>>;
 
   Link& link(int from, int to) {
     return links_[static_cast<std::size_t>(from) * ends_.size() + static_cast<std::size_t>(to)];

@@ -29,8 +29,8 @@ namespace {
 using oracle::Answer;
 using oracle::Verdict;
 
-// Returns the optimum of a dense instance that is too large for exhaustive search. A
-// single-threaded run with all techniques proves it.
+// Returns the optimum of a dense instance that is too large for exhaustive search, if a
+// single-threaded run with all techniques proves it; else Verdict::kTooLarge.
 Answer truth_by_one_thread(const Instance& instance) {
   const ClockReadingLimit limits(20'000);
   SolveOptions options;
@@ -65,8 +65,9 @@ Policy policy_of(const SolveOptions& options) {
   return options.policy == Policy::kFixed ? Policy::kFixed : Policy::kFree;
 }
 
-// Requests checkpoints at random times, tests whether a single process finds the optimum from them,
-// and kills all ranks, so that a different number of ranks must resume from the last checkpoint.
+// Requests checkpoints at random times, tests the claims of a single process that resumes from
+// them, and kills all ranks, so that a different number of ranks must resume from the last
+// checkpoint.
 class CheckpointTester : public RunObserver {
  public:
   CheckpointTester(const Instance& instance, const Answer& truth, SolveOptions& options,
@@ -105,7 +106,7 @@ class CheckpointTester : public RunObserver {
     return std::make_unique<CheckpointReader>(options_.checkpoints.directory,
                                               fingerprint(instance_), policy_of(options_));
   }
-  // Returns whether checkpoints were requested and none was written. Call after the end of a run.
+  // Returns whether checkpoints are enabled and none was written. Call after the end of a run.
   bool misses_one() const { return used_ && !is_there_; }
   int reopened() const { return reopened_; }
   const std::vector<std::string>& wrong() const { return wrong_; }

@@ -23,7 +23,8 @@ struct ScheduleTally {
   std::int64_t reopened = 0;  // number of times that a single process resumed from a checkpoint
 };
 
-// Returns the false claims, or an empty vector. The same seed gives the same run.
+// Returns the errors: false claims, deadlocks, and lost messages or checkpoints. The same seed
+// gives the same run.
 std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally);
 
 }  // namespace grove::detail::testing

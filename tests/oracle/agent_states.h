@@ -38,7 +38,7 @@ class AgentStates {
     Time cost;
   };
 
-  // Throws TooMany if there are more than kMaxStates.
+  // Throws TooMany if there are more than 2^20 states. `instance` must outlive this object.
   AgentStates(const Instance& instance, AgentIndex agent);
   struct TooMany {};
 

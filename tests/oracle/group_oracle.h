@@ -18,14 +18,15 @@ namespace grove::detail::oracle {
 using PlacePath = std::vector<Place>;
 
 // Returns all paths of an agent that satisfy `constraints` and cost at most `most`, in ascending
-// order of cost. Returns nullopt if there are more than `cap` paths, or if the enumeration examines
-// more than 40 * `cap` states.
+// order of cost. Returns nullopt if there are more than `cap` paths, if the enumeration examines
+// more than 40 * `cap` states, or if the agent has too many states for AgentStates.
 std::optional<std::vector<PlacePath>> paths_within(const Instance& instance, AgentIndex agent,
                                                    std::span<const Constraint> constraints,
                                                    Time most, std::size_t cap);
 
-// Returns the least total cost of a collision-free combination with one path per agent, chosen from
-// that agent's `ways`. Returns nullopt if every combination has a collision.
+// Returns the least total cost of a collision-free combination of one path per agent. `ways`: the
+// paths of each agent, in ascending order of cost. Returns nullopt if every combination has a
+// collision.
 std::optional<Cost> least_joint_cost(const Instance& instance,
                                      std::span<const std::vector<PlacePath>> ways);
 

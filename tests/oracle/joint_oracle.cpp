@@ -13,7 +13,7 @@
 // many states, so an empty queue proves that there is no plan. A state is dropped if some agent,
 // even ignoring the others, can no longer finish, because no plan passes through that state.
 //
-// The oracle shares only the types of the model layer with Grove.
+// The oracle shares only the model layer with Grove.
 #include "tests/oracle/joint_oracle.h"
 
 #include <algorithm>

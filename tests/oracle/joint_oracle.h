@@ -12,8 +12,10 @@ namespace grove::detail::oracle {
 
 enum class Verdict : std::uint8_t {
   kSolved,
-  kInfeasible,  // every reachable joint state was expanded
-  kTooLarge,    // more states than `state_cap`, or than a key can number: no result
+  kInfeasible,  // there is no plan
+  // No result: there are more joint states than `state_cap` or than a 64-bit key can number, or
+  // more than 2^20 states of one agent.
+  kTooLarge,
 };
 
 struct Answer {

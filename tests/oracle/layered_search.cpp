@@ -127,8 +127,8 @@ Walker at_start(const Instance& instance, AgentIndex agent) {
   return walker;
 }
 
-// Returns the number of steps until `walker` may rest while `wall` is blocked forever, or nullopt
-// if it can never rest.
+// Returns the least number of steps until `walker` may rest while `wall` is blocked forever, or
+// nullopt if it can never rest.
 std::optional<Cost> steps_to_rest(const Instance& instance, const Steps& map, AgentIndex agent,
                                   const Walker& walker, Place wall) {
   std::set<Walker> seen{walker};

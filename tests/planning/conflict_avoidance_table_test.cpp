@@ -55,7 +55,7 @@ TEST(ConflictAvoidanceTable, AgreesWithNaiveCounts) {
 }
 
 // The counts of removed paths occupy memory until the table needs it and drops them. The test adds
-// three times as many paths as initially fit.
+// about three times as many paths as initially fit.
 TEST(ConflictAvoidanceTable, AgreesAfterDroppingRemovedPaths) {
   std::mt19937 random(8);
   const Grid grid =

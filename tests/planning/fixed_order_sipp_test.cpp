@@ -151,9 +151,9 @@ TEST(FixedOrderSipp, LaterVisitIsTriedWhenFirstVisitLeadsNowhere) {
   EXPECT_EQ(cost_of(grid, agent, constraints), kInfeasible);
 }
 
-// A gate postpones labels. The labels in question are expanded after a gate of an earlier goal,
-// although they can visit that goal before the time g of the gate. The gate must not postpone them,
-// because they violate its first condition, f(L) >= g + after_goal(k).
+// A gate postpones labels. Here some labels are expanded after a gate of an earlier goal, although
+// they can visit that goal before the time g of the gate. The gate must not postpone them, because
+// they violate its first condition, f(L) >= g + after_goal(k).
 TEST(FixedOrderSipp, GateKeepsLabelsThatReachItsGoalEarlier) {
   const Grid grid = grid_of({".......", "@.@@@@@"});
   const SingleAgent agent(grid, 0, {2, 5}, 6);
@@ -165,7 +165,7 @@ TEST(FixedOrderSipp, GateKeepsLabelsThatReachItsGoalEarlier) {
       {5, kNoCell, 6, 14},    {6, kNoCell, 6, 15},  //
       {8, kNoCell, 0, kNever}};
   ConflictAvoidanceTable others(grid);
-  others.add({8, 8, 8, 8, 1, 8});  // makes the arrival at 5 second choice
+  others.add({8, 8, 8, 8, 1, 8});  // makes arriving on 2 at time 5 the second choice
   EXPECT_EQ(path_of(grid, agent, constraints, &others).size(), 17U);
   EXPECT_EQ(cost_of(grid, agent, constraints), 16);
 }

@@ -107,7 +107,7 @@ struct Agent : FreeAgent {
 // Random problems on tiny maps, to which constraints are added one at a time.
 class Fuzzer {
  public:
-  // `conditional`: uses constraints of all kinds, not only vertex and edge constraints.
+  // `conditional`: uses constraints of all kinds on the path, not only vertex and edge constraints.
   Fuzzer(unsigned seed, bool conditional) : problems_(seed, conditional) {}
 
   void run() {
@@ -168,8 +168,8 @@ TEST_P(FreeOrderSippFuzz, AgreesWithSearchByDefinition) {
   EXPECT_GT(infeasible, seeds / 4);
 }
 
-// 2^n sequences have the same cost, but in few of them does the agent visit each stop when it first
-// passes it.
+// Up to 2^n sequences have the same cost, but only in a few of them the agent visits each stop when
+// it first passes it.
 TEST(FreeOrderSipp, RowOfTasksNeedsFewLabels) {
   for (const int n : {24, 64}) {
     const Grid grid = grid_of({std::string(static_cast<std::size_t>(n) + 4, '.'),
@@ -225,8 +225,9 @@ class ManyStops {
     if (with_destination) problem_.destination = cells[1];
   }
 
-  // Adds constraints one at a time. After each, FixedOrderSipp must find a path of the same cost
-  // for the sequence that the answer realizes, and no cheaper path for any sequence of lower cost.
+  // Adds constraints one at a time. Before each, FixedOrderSipp must find a path of the same cost
+  // for the sequence that the answer realizes, and no cheaper path for any of the first
+  // kMaxSequences sequences of lower cost.
   void check() {
     Agent agent(problem_);
     for (int n = 0; n < 8; ++n) {

@@ -10,8 +10,8 @@
 
 namespace grove::detail::testing {
 
-// Generates problems that depend only on the seed. `conditional`: uses constraints of all kinds,
-// not only vertex and edge constraints.
+// Generates problems that depend only on the seed and the calls. `conditional`: uses constraints of
+// all kinds on the path, not only vertex and edge constraints.
 class FreeProblems {
  public:
   FreeProblems(unsigned seed, bool conditional) : random_(seed), conditional_(conditional) {}
@@ -19,7 +19,7 @@ class FreeProblems {
   // Returns a random number from 0 to bound - 1.
   int below(int bound) { return static_cast<int>(random_() % static_cast<unsigned>(bound)); }
   Grid grid();
-  // Returns a problem without constraints.
+  // Returns a problem without constraints. It refers to `grid`.
   FreeProblem problem(const Grid& grid);
   Path walk(const Grid& grid) { return random_walk(grid, random_); }
   // Adds a constraint that `path` is likely to violate.

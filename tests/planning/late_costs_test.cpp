@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares the costs of legs while cells are barred forever with the costs of paths, for each
-// order.
+// Tests the costs of legs while cells are barred forever. In each order their sum must not exceed
+// the cost of a path.
 #include "planning/late_costs.h"
 
 #include <gtest/gtest.h>
@@ -54,8 +54,8 @@ class LateCosts {
   SafeIntervals intervals_;
 };
 
-// A room with one door in the west and one in the east; the destination is inside. Numbers: first
-// cell of the row.
+// A room with one door in the west and one in the east; the destination is inside. The comments
+// give the first cell of each row.
 const std::vector<std::string> kRoom = {
     "............",  //
     ".@@@@@@@@@@.",  // 12 ..

@@ -27,7 +27,7 @@ using testing::SingleAgent;
 // Random problems on tiny maps, to which constraints are added one at a time.
 class Fuzzer {
  public:
-  // `conditional`: uses constraints of all kinds, not only vertex and edge constraints.
+  // `conditional`: uses constraints of all kinds on the path, not only vertex and edge constraints.
   Fuzzer(unsigned seed, bool conditional) : random_(seed), conditional_(conditional) {}
 
   void run() {

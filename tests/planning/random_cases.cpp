@@ -27,7 +27,8 @@ std::vector<Mouth> mouths_of(const Grid& grid) {
   return mouths;
 }
 
-// Returns a traversal constraint around a time at which `path` leaves a corridor, if it does.
+// Returns a traversal constraint, often around a time at which `path` leaves a corridor. `mouths`
+// must not be empty.
 Constraint random_traversal(const Path& path, const std::vector<Mouth>& mouths,
                             std::mt19937& random) {
   const auto steps = static_cast<int>(path.size());

@@ -13,7 +13,7 @@ namespace grove::detail::testing {
 // Returns a small map with doors, corridors, dead ends or loops.
 Grid random_corridor_map(std::mt19937& random);
 
-// Returns a map of at most six by four cells. Its first cell is passable.
+// Returns a map of at most six by four cells with at least one passable cell.
 Grid random_small_map(std::mt19937& random);
 
 // Returns a random passable cell.

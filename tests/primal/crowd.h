@@ -46,8 +46,8 @@ inline std::vector<Cell> largest_part(const Grid& grid) {
 }
 
 // Returns an instance in which agents start and end on distinct random cells of one connected
-// component. An agent without a destination has a task on its end cell. All other tasks are on
-// other cells, each for one or two agents.
+// component. An agent without a destination has a task on its end cell. All other tasks, each for
+// one or two agents, are on cells that are not such an end cell.
 inline Instance random_crowd(const Crowd& crowd, std::uint64_t seed) {
   fuzz::Random random(seed);
   std::vector<bool> passable;

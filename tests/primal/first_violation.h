@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// First violation that the checker finds in a plan or solution.
+// First violation that the checker finds in a plan.
 #pragma once
 
 #include <string>

@@ -28,7 +28,7 @@ using Outcome = LacamWithRestarts::Outcome;
 
 constexpr std::int64_t kWithoutEnd = std::numeric_limits<std::int64_t>::max();
 
-// A search with its own instance and problem.
+// A search with its own problem. The instance must outlive it.
 struct Trial {
   explicit Trial(const Instance& the_instance, std::uint64_t seed = 0)
       : instance(the_instance),

@@ -13,8 +13,8 @@
 namespace grove::detail {
 namespace neighborhoods_test {
 
-// Returns an instance with `count` agents that cross an open square from left to right, each in its
-// own row.
+// Returns an instance with `count` agents that cross an open square from left to right, each from
+// its own row and via one task.
 Instance crossing(int count) {
   std::vector<testing::AgentSpec> agents;
   for (int i = 0; i < count; ++i)

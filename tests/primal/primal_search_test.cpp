@@ -23,7 +23,7 @@ namespace primal_search_test {
 using testing::first_violation;
 using testing::instance_of;
 
-// A primal search with its own instance and problem.
+// A primal search with its own problem. The instance must outlive it.
 struct Search {
   explicit Search(const Instance& the_instance, std::uint64_t seed = 0,
                   Techniques techniques = Techniques::defaults(), const Tuning& tuning = {})
@@ -261,7 +261,8 @@ TEST(PrimalSearch, RestartsWhenItStalls) {
   EXPECT_GT(search.primal.counts().attempts, 2);
 }
 
-// Half of the passable cells are occupied, so that the first attempt of prioritised planning fails.
+// About 40 % of the passable cells are occupied, so that the first attempt of prioritised planning
+// usually fails.
 Instance dense_instance(std::uint64_t seed) {
   return testing::random_crowd({.agents = 50, .tasks = 50, .no_destination = 20}, seed);
 }
@@ -359,7 +360,8 @@ TEST(PrimalSearch, MemoryShortageEndsOnlyLacam) {
   EXPECT_FALSE(search.primal.expects_plan());
 }
 
-// LaCAM's plans have a high cost, so prioritised planning continues, and its plan is adopted.
+// The adopted plan has a high cost, so prioritised planning continues and often finds a better
+// plan.
 TEST(PrimalSearch, AdoptedPlanDoesNotEndPrioritisedPlanning) {
   int by_prioritized_planning = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {

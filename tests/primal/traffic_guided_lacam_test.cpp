@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, GuidedDenseInstances,
                                            Crowd{.agents = 50, .tasks = 50},
                                            Crowd{.agents = 40, .tasks = 60, .no_destination = 40}));
 
-// Instances of all kinds: roads, turning agents, tasks with a duration, idle agents.
+// Tiny grids, agents with and without a destination, and shared tasks.
 TEST(TrafficGuidedLacam, EveryPlanOfTinyInstancesIsValid) {
   int found = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {

@@ -11,8 +11,7 @@ namespace traffic_test {
 
 using testing::instance_of;
 
-// Two paths of equal length around a block, from cell 0 to cell 14, and distance fields to any
-// cell.
+// Two paths of equal length around a block, from cell 5 to cell 9, and distance fields to any cell.
 struct Block {
   Block() { traffic.update_edge_costs(); }
   DistanceField field(Place to) {
@@ -31,7 +30,7 @@ struct Block {
   const Path above{5, 0, 1, 2, 3, 4, 9};
 };
 
-// Worlds of all kinds: grids, one-way and two-way roads, turning agents, tasks with a duration.
+// Tests the distances to all tasks on random tiny grids.
 TEST(Traffic, StepsCostEightWithoutTraffic) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const Instance instance = fuzz::random_instance(seed).build();

@@ -185,7 +185,7 @@ TEST_F(CertificateTexts, AreReadOrRefusedWithAnyByteChanged) {
   EXPECT_GT(refused, text.size() / 2);
 }
 
-// A proof whose depth equals its length.
+// A proof whose depth equals its number of splits.
 TEST_F(CertificateTexts, CanBeDeeplyNested) {
   std::string proof;
   for (int i = 0; i < 100'000; ++i) proof += "split 0 bar 0 1 1 | 1 bar 0 1 1\nleaf\n";

@@ -172,7 +172,7 @@ TEST(Brancher, TakesAFallbackSplitOnlyForAgentsInConflict) {
   EXPECT_EQ(apart.constrained(), std::vector<AgentIndex>({0, 1}));
 }
 
-// Two conflicts at the same time. The seed alone decides which of them is split.
+// Two conflicts at the same time. Only the seed decides which of them is split.
 TEST(Brancher, BreaksTiesBySeed) {
   const std::vector<AgentSpec> twice{{{0, 0}, Position{2, 2}},
                                      {{0, 2}, Position{2, 0}},

@@ -69,7 +69,7 @@ TEST(CoveringBound, IsZeroWithoutStatements) {
   EXPECT_EQ(covering_bound({}), 0);
 }
 
-// Infinite excesses of pairs that have no collision-free paths, found before any plan gives a
+// Excesses near infinity, of pairs that have no collision-free paths, found before any plan gives a
 // finite limit. The recursion must not be as deep as these numbers, and sums of them must not
 // overflow.
 TEST(CoveringBound, HandlesStatementsOfInfiniteCost) {

@@ -62,8 +62,8 @@ std::optional<Cost> true_excess(NodeBelowRoot& s, const std::vector<AgentIndex>&
   return least ? std::min<Cost>(*least - apart, max_excess + 1) : max_excess + 1;
 }
 
-// With enough effort the result equals the excess found by exhaustive search; with little effort it
-// never exceeds it.
+// With enough effort the result equals the excess found by exhaustive search. With little effort
+// the result never exceeds that excess.
 TEST(JointGroups, ExcessEqualsThatOfAnExhaustiveSearch) {
   int exact = 0, above = 0, interrupted = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(600));

@@ -29,7 +29,8 @@ struct Process {
     trees.add(root->tree());
   }
 
-  // Expands at most `max_nodes` nodes. Returns the cost and bound of every generated node.
+  // Expands at most `max_nodes` nodes. Returns the cost and bound of the root and of every
+  // generated node.
   std::vector<std::pair<Cost, Cost>> expand(std::size_t max_nodes) {
     std::vector<NodePtr> nodes{root};
     for (std::size_t i = 0; i < nodes.size() && i < max_nodes; ++i) {

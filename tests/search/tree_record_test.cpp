@@ -100,9 +100,9 @@ TEST_F(TreeRecords, RestoreTheTreeOfAllOrders) {
   for (const auto& order : restored->tree().orders) EXPECT_FALSE(order->goals);
 }
 
-// Sequence classes between a fixed sequence and all sequences: all orders with the same first stop
-// as the tree's path, and of these the orders with a different second stop, to which the path does
-// not belong.
+// A sequence class between a fixed sequence and all sequences: all orders with the same first stop
+// as the tree's path. If the class also excludes the second stop of the path, the path does not
+// belong to it, and the record is refused.
 TEST_F(TreeRecords, RestoreTreesOfSequenceClasses) {
   TreeRecord record = record_of(fixed_roots(1)[0]->tree());
   const auto of_two = std::ranges::find_if(
@@ -136,7 +136,7 @@ class SmallTreeRecords : public TreeRecords {
                                           {{0, 2}, {}, {{2, 2}, {1, 2}}},
                                           {{0, 1}, Position{0, 1}}})) {}
 
-  // Expects this result of add() after `corrupt` has changed a record with fixed sequences.
+  // Expects `message` from answer() after `corrupt` has changed a record with fixed sequences.
   // expect_free() does the same for a record with free sequences.
   template <class Corrupt>
   void expect(const char* message, Corrupt corrupt) {

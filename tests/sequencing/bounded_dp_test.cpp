@@ -123,8 +123,8 @@ TEST(SequenceDag, HoldsExactlyTheSequencesBelowItsBound) {
         }
 }
 
-// Compares, for every set, the bound from each of its stops through the remaining stops with all
-// orders.
+// For every set of stops and every port in it, the bound from this port through the other stops
+// must not exceed the least cost over all orders.
 TEST(OneTreeRelaxation, TreeOfSetBoundsPathsThatBeginInIt) {
   Random random(34);
   int above_zero = 0;

@@ -95,8 +95,8 @@ TEST(CostToGo, IsEmptyBeforeWidening) {
 // For 15 and 16 stops CostToGo uses the sequence graph; the reference is the Held-Karp table.
 class GraphTest : public ::testing::Test {
  protected:
-  // Expects the exact cost-to-go at every state of each sequence that costs less than
-  // outside_bound().
+  // Expects the exact cost-to-go at the states of sequences that cost less than outside_bound().
+  // Examines at most kMaxVisited states per test.
   void expect_exact_below_outside_bound(const CostMatrix& matrix, const CostToGo& cost_to_go) {
     const Limits limits;
     const auto table = make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits);

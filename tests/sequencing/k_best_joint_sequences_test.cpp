@@ -15,7 +15,7 @@
 namespace grove::detail::testing {
 namespace k_best_joint_sequences_test {
 
-// A deque, because solvers keep references to its elements.
+// The cost matrices of the agents, in a deque because solvers keep references to them.
 struct Agents {
   std::deque<CostMatrix> matrices;
   Limits limits;
@@ -71,7 +71,7 @@ std::vector<Cost> first_costs(Agents& agents, RtspBackend backend, std::size_t c
   return costs;
 }
 
-// Lists with 1 to 120 sequences, enumerated completely if there are at most `count` combinations.
+// Lists with 1 to 120 sequences, enumerated completely if there are at most 1,500 combinations.
 TEST(KBestJointSequences, EqualsTheProductOfTheLists) {
   Random random(21);
   for (int round = 0; round < fuzz_rounds(12); ++round)

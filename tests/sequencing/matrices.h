@@ -31,14 +31,14 @@ CostMatrix wild_matrix(int n, Variant variant, Random& random);
 
 // Arbitrary costs with four ports for each stop; each leg between two ports has its own cost.
 CostMatrix wild_port_matrix(int n, Variant variant, Random& random);
-// A turning agent with n tasks on a small random grid; some tasks have a duration.
+// Costs of a turning agent with n tasks on a small random grid; tasks can have a duration.
 CostMatrix turning_matrix(int n, Variant variant, Random& random);
 
 void fill_column(CostMatrix& matrix, int column, Time cost);
 // Multiplies all costs by `factor`.
 void scale(CostMatrix& matrix, Time factor);
 
-// Costs for n tasks on a Moving AI map, placed on the starts of the first random scenario. Returns
+// Costs for n tasks on a Moving AI map; start, destination and tasks are on random cells. Returns
 // nullopt if the map is missing.
 std::optional<CostMatrix> map_matrix(const std::string& map, int n, Variant variant,
                                      Random& random);

@@ -166,7 +166,7 @@ TEST_P(RtspBackendTest, ReturnsSequenceOfAnEarlierCall) {
   }
 }
 
-// A row of n stops has 2^n optimal sequences. Early versions took seconds for 24 stops and
+// A row of n stops has up to 2^n optimal sequences. Early versions took seconds for 24 stops and
 // gigabytes for 30 stops.
 TEST(RowsOfStops, AreSequencedInOrder) {
   const Limits limits;

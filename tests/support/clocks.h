@@ -14,7 +14,8 @@ namespace grove::detail::testing {
 // A deadline in the past.
 inline constexpr Limits::Clock::time_point kPast{};
 
-// A clock for Limits that advances only when the test calls it to. Thread-safe.
+// A clock for Limits that advances only in advance(). Any thread may read it; advance(): one thread
+// at a time.
 class ManualClock {
  public:
   // Installs this clock in `limits`. This object must outlive the last use of `limits`.
@@ -46,7 +47,7 @@ class ClockReadingLimit : public Limits {
   mutable std::atomic<std::int64_t> readings_{0};
 };
 
-// A number of looks that no run reaches; with it ClockReadingLimit only counts readings.
+// More readings than any run makes: with this value ClockReadingLimit only counts them.
 inline constexpr std::int64_t kUnlimitedReadings = std::int64_t{1} << 40;
 
 // Limits that stop a run only if it hangs (after 5 minutes).

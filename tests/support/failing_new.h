@@ -4,8 +4,8 @@
 
 namespace grove::detail::testing {
 
-// Number of allocations by this thread that still succeed before one throws std::bad_alloc;
-// negative: no allocation fails.
+// Number of allocations by this thread that still succeed before one fails. After the failure it is
+// -1. Negative: no allocation fails. Over-aligned allocations are neither counted nor failed.
 extern thread_local int allocations_until_failure;
 
 }  // namespace grove::detail::testing

@@ -12,7 +12,7 @@
 namespace grove::detail::testing {
 
 // Returns `rounds` times GROVE_FUZZ_FACTOR (1 if unset). Throws std::invalid_argument if the
-// variable is not an integer of at least 1.
+// variable is not an integer from 1 to INT_MAX.
 inline int fuzz_rounds(int rounds) {
   const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
   if (factor == nullptr) return rounds;

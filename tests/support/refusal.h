@@ -9,7 +9,7 @@
 namespace grove::detail {
 
 // Calls `act` and returns the message of the InputError that it throws, without the directory of
-// its file. Returns "accepted" if it throws none.
+// its file. Returns "accepted" if it throws nothing. Other exceptions propagate.
 inline std::string refusal(const std::function<void()>& act) {
   try {
     act();

@@ -13,7 +13,8 @@ namespace grove::detail::testing {
 // std::invalid_argument if it is a constraint on the sequence.
 bool satisfies(const World& grid, const Path& path, const Constraint& constraint);
 
-// Entrance of a corridor: the move from `end`, outside, to the adjacent inner cell. Default: none.
+// Entrance of a corridor: the move from `end`, outside, to the adjacent inner cell. Default: no
+// entrance.
 struct Mouth {
   Cell end = kNoCell;
   Cell inner = kNoCell;

@@ -23,13 +23,13 @@ struct ProcessOptions {
   std::string input = {};               // standard input
   std::chrono::minutes timeout{5};      // the process is killed after this time
   rlim_t largest_file = RLIM_INFINITY;  // in bytes; applies to standard output and error, too
-  // Sent once, as soon as `signal_when` returns true; 0: no signal.
+  // Sent once, as soon as `signal_when` returns true (polled every millisecond); 0: no signal.
   int signal = 0;
   std::function<bool()> signal_when = {};
 };
 
 // Runs `command` (program and arguments, without a shell) and waits for it. Throws
-// std::runtime_error if it cannot be started.
+// std::runtime_error if it cannot be started or exits with 127.
 ProcessResult run_program(const std::vector<std::string>& command,
                           const ProcessOptions& options = {});
 

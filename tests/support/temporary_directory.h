@@ -23,14 +23,14 @@ class TemporaryDirectory {
 
   // Writes a file and returns its path.
   std::string write(const std::string& name, std::string_view content) const;
-  // The names of all files, including hidden ones, in ascending order.
+  // The names of all entries of the directory, including hidden ones, in ascending order.
   std::vector<std::string> files() const;
 
  private:
   std::filesystem::path path_;
 };
 
-// Returns the bytes of a file. Throws std::runtime_error if the file does not exist.
+// Returns the bytes of a file. Throws std::runtime_error if the file cannot be opened.
 std::string file_content(const std::filesystem::path& path);
 
 }  // namespace grove::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Joint search with an allocation failure at each possible point: the search ends and its bound is
-// valid.
+// Joint search with an allocation failure at many different points: the search ends and its bound
+// is valid.
 #include "joint/epea_star.h"
 
 #include <gtest/gtest.h>

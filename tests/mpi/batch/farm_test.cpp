@@ -191,8 +191,8 @@ class Simulation {
     row.outcome = {.status = "optimal", .solved = true, .cost = 3, .lower_bound = 3};
   }
 
-  // Expects that these rows are on disk, because a row must be there before its group gets the next
-  // instance.
+  // Expects that the rows of `ids` are on disk, because the row of an instance must be there before
+  // its group gets the next instance.
   void expect_on_disk(const Ids& ids) const {
     const std::string text = file_content(fs::path(folder_) / "results.jsonl");
     for (const std::string& id : ids)
@@ -343,8 +343,8 @@ TEST_F(Farms, ResumeAfterInterrupts) {
   EXPECT_GT(interrupted, 24);  // the test must not be vacuous
 }
 
-// Kills the ranks at any point, as SIGKILL does, even during a write (see the tests for result
-// tables).
+// Kills all ranks, as SIGKILL does, at several times. (The tests of result tables cover a kill
+// during a write.)
 TEST_F(Farms, ResumeAfterBeingKilled) {
   for_all([&](Trial run) {
     use_new_folder();

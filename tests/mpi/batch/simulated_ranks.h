@@ -27,7 +27,7 @@ class SimulatedRanks {
 
   // Called each time the clock has advanced. It may call kill().
   std::function<void(double now)> on_time;
-  // Ends all ranks immediately, as SIGKILL would; run() then returns.
+  // Ends each rank in its current or next call of pause(); run() then returns.
   void kill() { killed_ = true; }
   bool killed() const { return killed_; }
 

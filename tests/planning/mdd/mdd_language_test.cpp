@@ -40,9 +40,9 @@ constexpr Time kMaxCost = 60;
 struct AgentState {
   Cell cell;
   std::uint32_t counted;  // bit i: stop i is counted as visited
-  int last;               // the stop counted last
-  Cell entered_from;      // in a corridor: its end and first inner cell on entry
-  Cell entered_at;
+  int last;               // the stop counted last; -1: none, or there is a destination
+  Cell entered_from;      // in a corridor entered after time 0: the cell before it; else kNoCell
+  Cell entered_at;        // its first inner cell on that entry; else kNoCell
   friend auto operator<=>(const AgentState&, const AgentState&) = default;
 };
 
@@ -54,7 +54,7 @@ class TimeExpanded {
     layers_.push_back(std::move(first));
   }
 
-  // Returns the least cost of a path, or nullopt if that is more than `most`.
+  // Returns the least cost of a path, or nullopt if no path costs at most `most`.
   std::optional<Time> min_cost(Time most) {
     for (Time cost = 0; cost <= most; ++cost)
       if (ends_at(cost)) return cost;
@@ -165,8 +165,8 @@ class SideBySide {
              const Mdd& graph)
       : reference_(reference), useful_(useful), graph_(graph) {}
 
-  // Describes the first difference found, or returns "" if there is none. Examines at most
-  // kMaxReadings pairs of node sets.
+  // Describes the first difference found in the first kMaxReadings readings, or returns "" if there
+  // is none.
   std::string difference() {
     const auto first = graph_.layer(0);
     std::map<Cell, Reading> begin;
@@ -347,8 +347,8 @@ class Fuzzer {
         if (below(3) == 0) problem_.work.forbidden_next |= StopSet{1} << order[i];
   }
 
-  // Sorts the stops in depth-first order of their cells, so that paths in this order do not cost
-  // too much.
+  // Sorts the stops in the order in which a depth-first search discovers their cells, so that paths
+  // in this order do not cost too much.
   void order_nearest_first(Sequence& order) const {
     std::map<Cell, int> found{{problem_.start, 0}};
     std::vector<Cell> stack{problem_.start};

@@ -183,8 +183,8 @@ class Fuzzer {
     return std::make_unique<Agent>(problem);
   }
 
-  // Compares all paths of a cost from the agent's least cost to that cost plus two, and returns
-  // them.
+  // Compares all paths of one random cost, from the agent's least cost to that cost plus two, and
+  // returns them. Returns none if there is no path or the cost is above kMaxCost.
   Paths check(Agent& agent) {
     const std::optional<Time> least = free_reference_cost(agent.problem);
     if (!least) {

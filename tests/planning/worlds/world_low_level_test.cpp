@@ -91,7 +91,8 @@ class Fuzzer {
     return work;
   }
 
-  // Returns the cost-to-go as the search uses it, as a graph, or as a graph by direct legs.
+  // Returns at random the cost-to-go that the search uses, the same as a graph, or as a graph by
+  // direct legs.
   CostToGo cost_to_go_of(const AgentStops& stops, const SequenceClass& work) {
     const CostToGo& given = stops.cost_to_go();
     switch (below(3)) {
@@ -226,7 +227,7 @@ class Fuzzer {
   }
 
   // An MDD of the least cost must exist, and a random path of it must be valid. There must be no
-  // MDD of lower cost.
+  // MDD of a cost one lower.
   void check_mdd(AgentIndex agent, SequenceStages& goals, Time cost) {
     using Outcome = MddBuilder::Outcome;
     Mdd paths;

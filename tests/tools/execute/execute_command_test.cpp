@@ -101,8 +101,8 @@ TEST_F(ExecuteCommand, StopDelaysAtMostItsDuration) {
   EXPECT_GE(longest, 60u);
 }
 
-// Uses only the file: each robot starts at its start, performs its actions in order, and waits for
-// the listed dependencies.
+// In the file the actions of each robot lead from its start along its path in the plan and visit
+// all its tasks. Each dependency names an existing action.
 TEST_F(ExecuteCommand, WritesThePassingOrder) {
   ASSERT_EQ(execute({"--order", directory_ / "order.json"}).exit_code, 0);
   const json order = read("order.json");

@@ -60,7 +60,7 @@ TEST(RoomsMap, IsConnectedWithAnyDoors) {
 
 // The doors are the passable cells outside the rooms.
 TEST(RoomsMap, HasTheRequestedNumberOfDoors) {
-  constexpr int kRooms = 4 * 4 * 3 * 3;  // 4 x 4 rooms of 3 x 3 cells; 24 walls between two
+  constexpr int kRooms = 4 * 4 * 3 * 3;  // 4 x 4 rooms of 3 x 3 cells; 24 walls between two rooms
   EXPECT_EQ(rooms_map(15, 15, 3, 0, 1).passable_count(), kRooms + 15);
   EXPECT_EQ(rooms_map(15, 15, 3, 0.75, 1).passable_count(), kRooms + 18);
   EXPECT_EQ(rooms_map(15, 15, 3, 1, 1).passable_count(), kRooms + 24);

@@ -287,7 +287,7 @@ TEST_F(SolveCommand, ReportsInfiniteOmega) {
   EXPECT_EQ(plan("p.json")["stats"]["roots_generated"], 1);
 }
 
-// Returns the log without times, memory and options.
+// Returns the log without times, memory, options and number of threads.
 std::string timeless(const std::string& log) {
   return std::regex_replace(
       log, std::regex(R"( +[0-9]+ MB +[0-9.]+s|[0-9.]+ s\n|Memory .*\n|Options .*\n|Threads .*\n)"),
@@ -513,8 +513,8 @@ struct LoggedTree {
   std::int64_t expanded = 0;
   std::map<std::string, std::int64_t> splits;  // by kind
 
-  // Checks that each node is expanded once, after its creation, that children are new, and that no
-  // child's bound is below its parent's.
+  // Checks that each node is expanded at most once, after its creation, that children are new, and
+  // that no child's bound is below its parent's.
   void add(const json& event) {
     if (event["event"] == "root") open[event["node"]] = event;
     if (event["event"] != "node") return;
@@ -633,7 +633,8 @@ TEST_F(SolveCommand, IgnoresAPlanTruncatedByACrash) {
 
 // --- incumbents from heuristics and from files; incumbents written to files ---
 
-// An instance with ten agents and two doors. The search finds many better plans within a second.
+// An instance with sixteen agents and two doors. The search finds many better plans within a
+// second.
 std::string doors_instance() {
   std::string agents;
   for (int i = 0; i < 8; ++i)
