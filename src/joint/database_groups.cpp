@@ -33,7 +33,7 @@ void DatabaseGroups::plan(Members members) {
   const std::size_t entries = PatternDatabase::entries(agents_, members);
   if (entries <= kMaxEntries && planned_work_ + work_of(members) <= kMaxTableWork) {
     planned_work_ += work_of(members);
-    to_come_.push_back(std::move(members));
+    due_.push_back(std::move(members));
   } else if (entries <= kMaxLateEntries && agents_.size() <= kMaxGroupedLate) {
     late_.push_back(std::move(members));
   }
@@ -50,8 +50,8 @@ bool DatabaseGroups::make_first(std::deque<Members>& of, const Limits& limits) {
 }
 
 bool DatabaseGroups::make_next(const Limits& limits) {
-  if (!make_first(to_come_, limits)) return false;
-  if (to_come_.empty()) group();
+  if (!make_first(due_, limits)) return false;
+  if (due_.empty()) group();
   return true;
 }
 

@@ -32,9 +32,9 @@ class DatabaseGroups {
   // would be that database.
   void plan();
   // Whether a planned database must still be made before the search.
-  bool are_due() const { return !to_come_.empty(); }
-  // Makes the next database that must be made before the search. Requires are_due(). Returns false
-  // if a limit was reached.
+  bool is_early_due() const { return !due_.empty(); }
+  // Makes the next database that must be made before the search. Requires is_early_due(). Returns
+  // false if a limit was reached.
   bool make_next(const Limits& limits);
   // is_late_due(): whether there is a late database to make and it, together with all databases
   // made so far, takes at most the effort `of_search` (unit of search/work.h). make_late(): makes
@@ -70,8 +70,8 @@ class DatabaseGroups {
 
   const Instance& instance_;
   const std::span<const AgentGraph> agents_;
-  std::deque<Members> to_come_;  // members of the databases to make before the search
-  std::deque<Members> late_;     // members of the late databases
+  std::deque<Members> due_;   // members of the databases to make before the search
+  std::deque<Members> late_;  // members of the late databases
   std::int64_t planned_work_ = 0;
   std::vector<PatternDatabase> databases_;
   std::vector<Grouping> groupings_;  // all maximal groupings

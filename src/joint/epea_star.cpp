@@ -69,11 +69,12 @@ class EpeaStar::Search {
     for (const AgentGraph& agent : agents_) individual_costs_ += agent.to_go(AgentGraph::start());
     if (tables) groups_.plan();
     first_layer_ = lower_bound_ = std::max<Cost>(individual_costs_, known_bound);
-    if (!groups_.are_due()) begin();
+    if (!groups_.is_early_due()) begin();
   }
 
   Outcome run(std::int64_t states, Cost cutoff, const Limits& limits) {
-    if (groups_.are_due()) return make_database(limits) ? Outcome::kWorking : Outcome::kTooLarge;
+    if (groups_.is_early_due())
+      return make_database(limits) ? Outcome::kWorking : Outcome::kTooLarge;
     // Late databases take at most half of the effort.
     if (groups_.is_late_due(generated_ / kMadePerWork))
       return groups_.make_late(limits) ? Outcome::kWorking : Outcome::kTooLarge;
@@ -122,7 +123,7 @@ class EpeaStar::Search {
 
   bool make_database(const Limits& limits) {
     if (!groups_.make_next(limits)) return false;
-    if (!groups_.are_due()) begin();
+    if (!groups_.is_early_due()) begin();
     return true;
   }
   void begin() {
@@ -224,9 +225,9 @@ class EpeaStar::Search {
     budget_ = record_now.layer - record_now.cost - record_now.individual_costs;
     expanded_budget_ = record_now.expanded_budget;
     next_budget_ = kNever;
-    most_.assign(size() + 1, 0);
+    max_delta_f_after_.assign(size() + 1, 0);
     for (std::size_t i = size(); i-- > 0;)
-      most_[i] = most_[i + 1] + agents_[i].moves(from_[i]).back().delta_f;
+      max_delta_f_after_[i] = max_delta_f_after_[i + 1] + agents_[i].moves(from_[i]).back().delta_f;
     for (std::size_t i = 0; i < size(); ++i)
       from_on_[place(i, from_)] = static_cast<std::int8_t>(i);
     choose(0, 0, 0, 0);
@@ -276,7 +277,7 @@ class EpeaStar::Search {
     const std::size_t here = place(agent, from_);
     for (const AgentGraph::Move& move : graph.moves(from_[agent])) {
       const Time sum = delta_f + move.delta_f;
-      if (sum + most_[agent + 1] <= expanded_budget_) continue;
+      if (sum + max_delta_f_after_[agent + 1] <= expanded_budget_) continue;
       const auto there = static_cast<std::size_t>(graph.place(move.to));
       if (collides(agent, here, there)) continue;
       if (sum > budget_) {
@@ -348,7 +349,8 @@ class EpeaStar::Search {
   Time next_budget_ = kNever;
   std::vector<Node> from_;
   std::vector<Node> to_;
-  std::vector<Time> most_;  // by agent: sum of the largest delta_f of this and all later agents
+  std::vector<Time>
+      max_delta_f_after_;  // by agent: sum of the largest delta_f of this and all later agents
   std::vector<std::int8_t> from_on_;  // by place: the agent there now
   std::vector<std::int8_t> to_on_;    // by place: the agent that has chosen to move there
 };

@@ -49,9 +49,9 @@ TimeExpandedGraphs::Outcome TimeExpandedGraphs::make(SequenceStages& goals,
   // nodes.
   max_nodes = std::min(max_nodes, kMaxNumbers / 2);
   start();
-  for (Index node = 0; node < std::ssize(nodes_); ++node, ++looked_at_) {
+  for (Index node = 0; node < std::ssize(nodes_); ++node, ++expanded_) {
     if (nodes_.size() > max_nodes) return Outcome::kTooLarge;
-    if (looked_at_ % kExpansionsPerPoll == 0 && limits.stop_requested()) return Outcome::kStopped;
+    if (expanded_ % kExpansionsPerPoll == 0 && limits.stop_requested()) return Outcome::kStopped;
     expand(node);
   }
   find_finishes();

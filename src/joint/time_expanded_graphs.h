@@ -35,7 +35,7 @@ class TimeExpandedGraphs {
   Outcome make(SequenceStages& goals, std::span<const Constraint> constraints, Time max_cost,
                std::size_t max_nodes, const Limits& limits, AgentGraph& graph);
   // Nodes expanded so far, over all calls.
-  std::int64_t nodes() const { return looked_at_; }
+  std::int64_t nodes() const { return expanded_; }
 
  private:
   using StageId = SequenceStages::StageId;
@@ -64,7 +64,7 @@ class TimeExpandedGraphs {
   std::vector<Index> moves_;  // target nodes, node after node
   std::vector<StageId> first_stages_;
   std::unordered_map<std::uint64_t, Index> next_;  // nodes of the next time, by slot and stage
-  std::int64_t looked_at_ = 0;
+  std::int64_t expanded_ = 0;
   // Arguments of the current call.
   SequenceStages* goals_ = nullptr;
   Time max_cost_ = 0;

@@ -57,7 +57,7 @@ Brancher::Brancher(const Problem& problem, const SearchOptions& options, PathPla
       planner_(planner),
       memory_(memory),
       child_costs_(planner, memory, options.tuning.strong_branching_labels),
-      others_(problem.instance.world()),
+      avoidance_table_(problem.instance.world()),
       table_paths_(problem.instance.agent_count()) {}
 
 // The number of bypasses per call is limited. Each bypass lowers the counted number of conflicts,
@@ -94,11 +94,11 @@ void Brancher::update_avoidance_table(const NodeView& view) {
   for (std::size_t agent = 0; agent < table_paths_.size(); ++agent) {
     const Path& path = view.paths()[agent];
     if (table_paths_[agent] == path) continue;
-    others_.remove(table_paths_[agent]);
-    others_.add(path);
+    avoidance_table_.remove(table_paths_[agent]);
+    avoidance_table_.add(path);
     table_paths_[agent] = path;
   }
-  if (options_.audit) audit(problem_, others_, view.paths());
+  if (options_.audit) audit(problem_, avoidance_table_, view.paths());
 }
 
 // Chooses the split that raises the bounds most. Without strong branching, or if no split could be
@@ -157,12 +157,12 @@ bool Brancher::evaluate_branch(const Task& task, const AgentConstraint& constrai
   side.paths.clear();
   task.view.affected_agents(constraint, side.agents);
   for (AgentIndex agent : side.agents) {
-    others_.remove(task.view.path(agent));
-    side.conflicts -= others_.conflicts_of(task.view.path(agent));
+    avoidance_table_.remove(task.view.path(agent));
+    side.conflicts -= avoidance_table_.conflicts_of(task.view.path(agent));
   }
   const bool done = replan(task, constraint, side);
-  for (const Path& path : side.paths) others_.remove(path);
-  for (AgentIndex agent : side.agents) others_.add(task.view.path(agent));
+  for (const Path& path : side.paths) avoidance_table_.remove(path);
+  for (AgentIndex agent : side.agents) avoidance_table_.add(task.view.path(agent));
   return done;
 }
 
@@ -173,8 +173,8 @@ bool Brancher::replan(const Task& task, const AgentConstraint& constraint, Branc
       return false;
     if (!side.open) return true;
     side.increase += static_cast<Cost>(path_.size()) - 1 - task.view.cost_of(agent);
-    side.conflicts += others_.conflicts_of(path_);
-    others_.add(path_);
+    side.conflicts += avoidance_table_.conflicts_of(path_);
+    avoidance_table_.add(path_);
     side.paths.push_back(path_);
   }
   return true;
@@ -197,12 +197,13 @@ bool Brancher::replan_one(const Task& task, AgentIndex agent, const Constraint& 
     const Mdd* paths = memory_.paths(id, agent, order, constraints, cost, task.limits);
     if (!paths) return false;
     if (!paths->empty()) {
-      fewest_conflicts_.find(*paths, others_, path_);
+      fewest_conflicts_.find(*paths, avoidance_table_, path_);
       return true;
     }
   }
-  const PathQuery query{
-      .constraints = task.view.constraints_with(agent, more), .others = &others_, .cutoff = cutoff};
+  const PathQuery query{.constraints = task.view.constraints_with(agent, more),
+                        .others = &avoidance_table_,
+                        .cutoff = cutoff};
   const PathOutcome outcome = planner_.find(agent, order, query, task.limits, path_);
   found = outcome == PathOutcome::kFound;
   return outcome != PathOutcome::kStopped;

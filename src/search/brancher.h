@@ -54,11 +54,11 @@ class Brancher {
   // The split that the last call of branch() made; nullopt if it made none.
   const std::optional<Branching>& branching() const { return branching_; }
 
-  // Counters since construction. optimal_nodes(): MDD nodes searched for paths with the fewest
+  // Counters since construction. mdd_nodes(): MDD nodes searched for paths with the fewest
   // conflicts. splits(): splits by the kind of their second constraint, which identifies the
   // technique (kRestBy: target, kNoRestBy: cost split). child_costs(): cost queries of strong
   // branching and of re-planning.
-  std::int64_t optimal_nodes() const { return fewest_conflicts_.nodes(); }
+  std::int64_t mdd_nodes() const { return fewest_conflicts_.nodes(); }
   std::span<const std::int64_t, kConstraintKinds> splits() const { return splits_made_; }
   std::int64_t bypasses() const { return bypasses_; }
   const ChildCosts& child_costs() const { return child_costs_; }
@@ -104,8 +104,8 @@ class Brancher {
   WorkerCache& memory_;
   ChildCosts child_costs_;
   FewestConflicts fewest_conflicts_;
-  ConflictAvoidanceTable others_;  // holds the paths in scope
-  std::vector<Path> table_paths_;  // the paths in others_, by AgentIndex
+  ConflictAvoidanceTable avoidance_table_;  // holds the paths in scope
+  std::vector<Path> table_paths_;           // the paths in avoidance_table_, by AgentIndex
 
   std::vector<Split> splits_;
   std::array<Branch, 2> branches_;

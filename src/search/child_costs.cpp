@@ -8,8 +8,8 @@ namespace grove::detail {
 ChildCosts::Outcome ChildCosts::increase(NodeView& view, const AgentConstraint& constraint,
                                          Cost slack, const Limits& limits, Cost& increase) {
   increase = 0;
-  view.affected_agents(constraint, disturbed_);
-  for (AgentIndex agent : disturbed_) {
+  view.affected_agents(constraint, affected_);
+  for (AgentIndex agent : affected_) {
     const Time cutoff = cutoff_for(view, agent, slack - increase);
     Time least = 0;
     const Outcome outcome =

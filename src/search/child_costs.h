@@ -49,7 +49,7 @@ class ChildCosts {
   PathPlanner& planner_;
   WorkerCache& memory_;
   const std::int64_t label_limit_;
-  std::vector<AgentIndex> disturbed_;
+  std::vector<AgentIndex> affected_;
   Path path_;
   std::int64_t asked_ = 0;
   std::int64_t known_ = 0;

@@ -79,9 +79,9 @@ class Component {
     bool found = false;
     for (int agent : agents) {
       if (found || frozen_[agent] > 0) continue;
-      give(agent, 1);
+      raise(agent, 1);
       found = fulfil(left - 1);
-      give(agent, -1);
+      raise(agent, -1);
       ++frozen_[agent];
       tried.push_back(agent);
     }
@@ -89,7 +89,7 @@ class Component {
     return found;
   }
 
-  void give(int agent, Cost amount) {
+  void raise(int agent, Cost amount) {
     for (Statement& s : statements_)
       if (std::ranges::count(s.agents, agent) > 0) s.due -= amount;
   }

@@ -151,7 +151,7 @@ Plan Expander::plan(const Node& node) {
 double Expander::whole_work() const {
   const ExpansionCounts done = counts();
   return static_cast<double>(planner_.work() + done.group_work) +
-         work::kPerOptimalNode * static_cast<double>(done.optimal_nodes) +
+         work::kPerOptimalNode * static_cast<double>(done.mdd_nodes) +
          work::kPerJointPair * static_cast<double>(done.joint_mdd_nodes) +
          work::kPerSubproblem * static_cast<double>(done.subproblems) +
          work::kPerGroup * static_cast<double>(done.groups) +
@@ -163,8 +163,7 @@ ExpansionCounts Expander::counts() const {
   counts.low_level_calls = planner_.calls();
   counts.low_level_expanded = planner_.expanded();
   counts.pair_expansions = dependencies_.expansions();
-  counts.optimal_nodes =
-      planner_.optimal_nodes() + brancher_.optimal_nodes() + dependencies_.optimal_nodes();
+  counts.mdd_nodes = planner_.mdd_nodes() + brancher_.mdd_nodes() + dependencies_.mdd_nodes();
   counts.joint_mdd_nodes = dependencies_.joint_mdd_nodes();
   counts.group_states = dependencies_.joint_groups().states();
   counts.group_work = dependencies_.joint_groups().work();

@@ -39,7 +39,7 @@ struct ExpansionCounts {
   std::int64_t low_level_calls = 0;
   std::int64_t low_level_expanded = 0;  // labels
   std::int64_t pair_expansions = 0;     // nodes expanded to bound pairs and groups
-  std::int64_t optimal_nodes = 0;    // MddBuilder::nodes(), and nodes that FewestConflicts searched
+  std::int64_t mdd_nodes = 0;        // MddBuilder::nodes(), and nodes that FewestConflicts searched
   std::int64_t joint_mdd_nodes = 0;  // pairs of MDD nodes compared (joint MDDs)
   std::int64_t group_states = 0;     // states expanded by joint search of pairs and groups
   std::int64_t group_work = 0;       // effort of joint search, in the unit of work.h

@@ -33,9 +33,9 @@ std::size_t bytes_of_constraints(const LearnedBound& fact) {
 }
 
 // Collects the learned bounds all of whose agents belong to trees in the index.
-class Facts {
+class Collector {
  public:
-  Facts(const SharedCache& memory, const TreeIndex& trees) : memory_(memory), trees_(trees) {}
+  Collector(const SharedCache& memory, const TreeIndex& trees) : memory_(memory), trees_(trees) {}
 
   void add(std::span<const SubproblemTable::Id> ids, SubproblemTable::CostBound cost,
            DependencyTable::ExcessBound excess) {
@@ -73,9 +73,8 @@ void require_order(const LearnedBound& fact) {
 }  // namespace
 
 double LearnedBound::utility() const {
-  const double dearness =
-      (1.0 + excess.expansions) * (excess.excess > 0 ? kPositiveExcessWeight : 1);
-  return dearness / static_cast<double>(kBytesPerConstraint + bytes_of_constraints(*this));
+  const double value = (1.0 + excess.expansions) * (excess.excess > 0 ? kPositiveExcessWeight : 1);
+  return value / static_cast<double>(kBytesPerConstraint + bytes_of_constraints(*this));
 }
 
 void TreeIndex::add(const Tree& tree) {
@@ -95,7 +94,7 @@ const Tree* TreeIndex::numbered(std::uint32_t number) const {
 
 std::vector<LearnedBound> learned_bounds_of(const NewEntries& news, const SharedCache& memory,
                                             const TreeIndex& trees) {
-  Facts facts(memory, trees);
+  Collector facts(memory, trees);
   for (const auto& [id, known] : news.costs) facts.add(std::array{id}, known, {});
   for (const auto& pair : news.pairs)
     facts.add(std::array{pair.first, pair.second}, {}, pair.known);

@@ -11,8 +11,8 @@ PathPlanner::PathPlanner(const Problem& problem, AgentStopsCache& stops,
                          std::unique_ptr<AgentPlanner> free, bool repeatable)
     : fixed_(problem.instance.world()),
       free_(free ? std::move(free) : std::make_unique<FreeOrderSipp>(problem.instance.world())),
-      optimal_(problem.instance.world()),
-      timed_(problem.instance.world()),
+      mdd_builder_(problem.instance.world()),
+      timed_graphs_(problem.instance.world()),
       stops_(stops),
       repeatable_(repeatable),
       free_goals_(problem.instance.agent_count()) {}
@@ -27,14 +27,15 @@ PathOutcome PathPlanner::find(AgentIndex agent, const AgentSequencing& order, Pa
 MddBuilder::Outcome PathPlanner::mdd(AgentIndex agent, const AgentSequencing& order,
                                      std::span<const Constraint> constraints, Time cost,
                                      std::size_t max_nodes, const Limits& limits, Mdd& paths) {
-  return optimal_.build(free_goals(agent, order), constraints, cost, max_nodes, limits, paths);
+  return mdd_builder_.build(free_goals(agent, order), constraints, cost, max_nodes, limits, paths);
 }
 
 TimeExpandedGraphs::Outcome PathPlanner::timed_graph(AgentIndex agent, const AgentSequencing& order,
                                                      std::span<const Constraint> constraints,
                                                      Time max_cost, std::size_t max_nodes,
                                                      const Limits& limits, AgentGraph& graph) {
-  return timed_.make(free_goals(agent, order), constraints, max_cost, max_nodes, limits, graph);
+  return timed_graphs_.make(free_goals(agent, order), constraints, max_cost, max_nodes, limits,
+                            graph);
 }
 
 Sequence PathPlanner::sequence(AgentIndex agent, const AgentSequencing& order, const Path& path) {

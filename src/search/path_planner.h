@@ -51,9 +51,9 @@ class PathPlanner {
   std::int64_t calls() const { return calls_; }
   std::int64_t expanded() const { return fixed_.expanded() + free_->expanded(); }
   // Effort of MDDs so far; see MddBuilder::nodes().
-  std::int64_t optimal_nodes() const { return optimal_.nodes(); }
+  std::int64_t mdd_nodes() const { return mdd_builder_.nodes(); }
   // Nodes of time-expanded graphs expanded so far.
-  std::int64_t timed_nodes() const { return timed_.nodes(); }
+  std::int64_t timed_nodes() const { return timed_graphs_.nodes(); }
   // Effort of calls and labels; see work.h.
   std::int64_t work() const { return expanded() + work::kPerCall * calls_; }
 
@@ -63,8 +63,8 @@ class PathPlanner {
   std::int64_t calls_ = 0;
   FixedOrderSipp fixed_;
   std::unique_ptr<AgentPlanner> free_;
-  MddBuilder optimal_;
-  TimeExpandedGraphs timed_;
+  MddBuilder mdd_builder_;
+  TimeExpandedGraphs timed_graphs_;
   AgentStopsCache& stops_;
   bool repeatable_;
   std::vector<std::unique_ptr<SequenceStages>> free_goals_;  // by AgentIndex, for the last class

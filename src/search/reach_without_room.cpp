@@ -102,7 +102,7 @@ class SmallPart {
   // Extends `way` to all cycles on which its first node has the least number.
   void find_cycles(std::vector<std::size_t>& way) {
     for (const std::size_t next : neighbors_[way.back()]) {
-      if (next == way.front() && way.size() > 2) circles_.push_back(way);
+      if (next == way.front() && way.size() > 2) cycles_.push_back(way);
       if (next <= way.front() || std::ranges::count(way, next) > 0) continue;
       way.push_back(next);
       find_cycles(way);
@@ -119,7 +119,7 @@ class SmallPart {
         visit(std::move(next));
       }
     else
-      for (const std::vector<std::size_t>& circle : circles_) {
+      for (const std::vector<std::size_t>& circle : cycles_) {
         std::vector<AgentIndex> next = now;
         for (std::size_t i = 0; i < circle.size(); ++i)
           next[circle[i]] = now[circle[(i + 1) % circle.size()]];
@@ -129,7 +129,7 @@ class SmallPart {
 
   const std::vector<PebbleNode> nodes_;
   std::vector<std::vector<std::size_t>> neighbors_;
-  std::vector<std::vector<std::size_t>> circles_;
+  std::vector<std::vector<std::size_t>> cycles_;
 };
 
 class RingReach : public ReachableConfigurations {

@@ -16,7 +16,7 @@ void SharedCache::merge(const CacheDelta& found) {
   NewEntries news;
   for (const auto& [id, known] : found.costs)
     if (subproblems.merge(id, known) && keeps) news.costs.emplace_back(id, known);
-  for (const auto& [id, set] : found.sets) path_sets.add(id, set);
+  for (const auto& [id, set] : found.mdds) mdds.add(id, set);
   for (const auto& p : found.pairs)
     if (excesses.merge_pair(p.first, p.second, p.agent, p.known) && keeps) news.pairs.push_back(p);
   for (const auto& g : found.groups)
@@ -49,14 +49,14 @@ const Mdd* WorkerCache::paths(Id id, AgentIndex agent, const AgentSequencing& or
                               std::span<const Constraint> constraints, Time cost,
                               const Limits& limits) {
   ++sets_asked_;
-  const auto known = found_.sets.find(id);
-  MddCache::Set set = known != found_.sets.end() ? known->second : common_->path_sets.find(id);
+  const auto known = found_.mdds.find(id);
+  MddCache::Set set = known != found_.mdds.end() ? known->second : common_->mdds.find(id);
   if (set) ++sets_known_;
   if (!set)
     set = MddCache::make(planner_, agent, order, constraints, cost,
-                         static_cast<std::size_t>(max_set_nodes_), limits);
+                         static_cast<std::size_t>(max_mdd_nodes_), limits);
   if (!set) return nullptr;
-  return (found_.sets[id] = std::move(set)).get();
+  return (found_.mdds[id] = std::move(set)).get();
 }
 
 DependencyTable::ExcessBound WorkerCache::of_pair(Id first, Id second) const {

@@ -29,7 +29,7 @@ struct CacheDelta {
     DependencyTable::ExcessBound known;
   };
   std::unordered_map<Id, SubproblemTable::CostBound> costs;
-  std::unordered_map<Id, MddCache::Set> sets;  // all that the worker requested
+  std::unordered_map<Id, MddCache::Set> mdds;  // all that the worker requested
   // `pairs` and `groups` are searched linearly, because they hold few entries at a time.
   std::vector<Pair> pairs;
   std::vector<DependencyTable::Group> groups;
@@ -52,7 +52,7 @@ struct SharedCache {
   explicit SharedCache(Successor /*successor*/) : follows_another(true) {}
 
   SubproblemTable subproblems;
-  MddCache path_sets;
+  MddCache mdds;
   DependencyTable excesses{subproblems};
   // If true, an earlier cache was full, so this one may be dropped as well before its results are
   // used.
@@ -67,8 +67,8 @@ struct SharedCache {
   NewEntries take_new_entries();
 
   // Drops MDDs if there are too many; they can be computed again.
-  void trim() { path_sets.trim(); }
-  std::size_t bytes() const { return subproblems.bytes() + path_sets.bytes() + excesses.bytes(); }
+  void trim() { mdds.trim(); }
+  std::size_t bytes() const { return subproblems.bytes() + mdds.bytes() + excesses.bytes(); }
 
  private:
   static std::int64_t next_number();
@@ -88,7 +88,7 @@ class WorkerCache {
 
   // `planner` must outlive this object. MDDs of more than `max_set_nodes` nodes are not built.
   WorkerCache(PathPlanner& planner, std::shared_ptr<SharedCache> common, std::int64_t max_set_nodes)
-      : planner_(planner), common_(std::move(common)), max_set_nodes_(max_set_nodes) {}
+      : planner_(planner), common_(std::move(common)), max_mdd_nodes_(max_set_nodes) {}
 
   // Removes and returns the results since the last call. This worker sees them again once they are
   // in the shared cache.
@@ -140,7 +140,7 @@ class WorkerCache {
  private:
   PathPlanner& planner_;
   std::shared_ptr<SharedCache> common_;
-  const std::int64_t max_set_nodes_;
+  const std::int64_t max_mdd_nodes_;
   std::int64_t asked_ = 0;
   mutable std::int64_t groups_asked_ = 0;
   std::int64_t sets_asked_ = 0;

@@ -345,7 +345,7 @@ void WdgHeuristic::collect(std::vector<GroupExcess>& statements) {
   statements.erase(std::unique(statements.begin(), statements.end(), repeats), statements.end());
 }
 
-ProofKey WdgHeuristic::why(NodeView& view, const Split& split) {
+ProofKey WdgHeuristic::lemma_key(NodeView& view, const Split& split) {
   load_subproblems(view);
   const auto [a, b] = std::minmax(split[0].agent, split[1].agent);
   return lemma_at(view, std::array{a, b}, known(a, b).excess).key();

@@ -58,13 +58,13 @@ class WdgHeuristic {
   void splits(NodeView& view, std::vector<Split>& splits);
   // Key of the lemma that proves that the split on costs `split` loses no plan. `view` has entered
   // the node that is split.
-  ProofKey why(NodeView& view, const Split& split);
+  ProofKey lemma_key(NodeView& view, const Split& split);
 
   // Drops all references to nodes.
   void leave();
 
   // Counters since construction. expansions(): nodes expanded for pairs and groups.
-  // joint_mdd_nodes(): pairs of MDD nodes compared in joint MDDs. steps() and optimal_nodes(): the
+  // joint_mdd_nodes(): pairs of MDD nodes compared in joint MDDs. steps() and mdd_nodes(): the
   // counters of the view and of the brancher for pairs and groups.
   std::int64_t expansions() const { return expansions_; }
   std::int64_t joint_mdd_nodes() const { return joint_mdd_search_.pairs(); }
@@ -73,7 +73,7 @@ class WdgHeuristic {
   void swap_cache(NodeView::AgentCache& cache) { pair_view_.swap_cache(cache); }
   // The joint search for pairs and groups.
   const JointGroups& joint_groups() const { return joint_groups_; }
-  std::int64_t optimal_nodes() const { return pair_brancher_.optimal_nodes(); }
+  std::int64_t mdd_nodes() const { return pair_brancher_.mdd_nodes(); }
 
  private:
   using ExcessBound = DependencyTable::ExcessBound;

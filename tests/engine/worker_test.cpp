@@ -88,7 +88,7 @@ TEST(Worker, CountsTheWorkOfAnItem) {
   const std::int64_t work = c.low_level_expanded + 16 * c.low_level_calls;
   const auto times = [](double rate, std::int64_t of) { return rate * static_cast<double>(of); };
   EXPECT_DOUBLE_EQ(worker.expander().whole_work(),
-                   times(1, work) + times(0.55, c.optimal_nodes) + times(0.85, c.joint_mdd_nodes) +
+                   times(1, work) + times(0.55, c.mdd_nodes) + times(0.85, c.joint_mdd_nodes) +
                        times(2, c.subproblems) + times(1.7, c.groups) + times(0.15, c.path_steps));
 }
 

@@ -240,10 +240,10 @@ TEST(WorkerCache, BuildsAnMddOnce) {
   ASSERT_TRUE(paths);
   EXPECT_FALSE(paths->empty());
   EXPECT_EQ(ask(s.memory), paths);
-  const std::int64_t nodes = s.planner.optimal_nodes();
+  const std::int64_t nodes = s.planner.mdd_nodes();
   s.memory.common()->merge(s.memory.take_delta());
-  EXPECT_EQ(ask(s.other), s.memory.common()->path_sets.find(id).get());
-  EXPECT_EQ(s.planner.optimal_nodes(), nodes);
+  EXPECT_EQ(ask(s.other), s.memory.common()->mdds.find(id).get());
+  EXPECT_EQ(s.planner.mdd_nodes(), nodes);
 }
 
 TEST(MddCache, DropsMddsThatWereNotUsedRecently) {
