@@ -102,7 +102,7 @@ class FreeOrderSipp::Workspace {
  private:
   using Search = SafeIntervalSearch<FreeOrderGoals>;
 
-  void decide_when(const PathQuery& query);
+  void set_thresholds(const PathQuery& query);
   PathOutcome find_any();
   PathOutcome find_known();
   std::optional<PathOutcome> find_within(Time cap);
@@ -159,17 +159,19 @@ PathOutcome FreeOrderSipp::Workspace::find(SequenceStages& goals, const PathQuer
   above_ = must_rest ? PathOutcome::kInfeasible : PathOutcome::kAboveCutoff;
   if (search_.goals().first_rest() > latest_) return above_;
   if (intervals.start_slot(goals.stops().start()) < 0) return PathOutcome::kInfeasible;
-  decide_when(query);
+  set_thresholds(query);
   return query.known_sequences_only && goals.cost_to_go().outside_bound() <= query.cutoff
              ? find_known()
              : find_any();
 }
 
-void FreeOrderSipp::Workspace::decide_when(const PathQuery& query) {
+void FreeOrderSipp::Workspace::set_thresholds(const PathQuery& query) {
   // With reservations and a label limit the caller does not need a proof of infeasibility.
-  const bool doubts = !query.reservations || query.label_limit == PathQuery::kUnlimited;
+  const bool may_check_feasibility =
+      !query.reservations || query.label_limit == PathQuery::kUnlimited;
   abort_at_ = search_.expanded_after(query.label_limit);
-  check_feasibility_at_ = doubts ? search_.expanded_after(kExpansionsBeforeCheck) : kNotAgain;
+  check_feasibility_at_ =
+      may_check_feasibility ? search_.expanded_after(kExpansionsBeforeCheck) : kNotAgain;
   recompute_costs_at_ = search_.expanded_after(kExpansionsBeforeRecomputation);
 }
 

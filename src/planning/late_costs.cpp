@@ -182,7 +182,7 @@ CostToGo late_costs_to_go(const AgentStops& stops, CostMatrix late) {
 
 }  // namespace
 
-SequenceStages* LateStages::over(SequenceStages& plain, const Limits& limits) {
+SequenceStages* LateStages::with_late_costs(SequenceStages& plain, const Limits& limits) {
   const Time plain_cost = min_cost(plain);
   auto matrix = late_cost_matrix(world_, intervals_, plain.stops(), plain_cost);
   if (!matrix) return nullptr;

@@ -27,7 +27,7 @@ class LateStages {
   // Returns the stages of the class of `plain` over late costs. Returns nullptr if they do not
   // prove a higher cost of the best sequence, for instance because a limit was reached. The result
   // refers to plain.stops() and is valid until the next call.
-  SequenceStages* over(SequenceStages& plain, const Limits& limits);
+  SequenceStages* with_late_costs(SequenceStages& plain, const Limits& limits);
 
  private:
   const World& world_;

@@ -35,7 +35,7 @@ void SafeIntervals::assign(const ReservationTable& reservations) {
       states_ + static_cast<int>(2 * reservations.count()) * world_.max_states_on_a_place();
 }
 
-void SafeIntervals::look_up(Place place) {
+void SafeIntervals::add_reserved_place(Place place) {
   const std::span<const ReservationTable::Stay> stays = reservations_->stays(place);
   const Time margin = reservations_->margin();
   if (stays.empty()) return;
@@ -130,14 +130,14 @@ void SafeIntervals::keep_rest_by(const Constraint& c) {
 }
 
 void SafeIntervals::keep_traversal(const Constraint& c) {
-  RestrictedCorridor& used = chain_used(corridors_->corridor_of(c.from));
+  RestrictedCorridor& used = restricted_corridor(corridors_->corridor_of(c.from));
   const bool at_back = leaves_at_back(c);
   (at_back ? used.from_front = kFromFront : used.from_back = kFromBack);
   const std::uint8_t barred = at_back ? kFromFront : kFromBack;
   bars_.push_back({c.cell, c.from, c.begin, c.end, Bar::Kind::kMove, barred});
 }
 
-SafeIntervals::RestrictedCorridor& SafeIntervals::chain_used(int corridor) {
+SafeIntervals::RestrictedCorridor& SafeIntervals::restricted_corridor(int corridor) {
   const auto known =
       std::ranges::find(restricted_corridors_, corridor, &RestrictedCorridor::corridor);
   return known != restricted_corridors_.end()

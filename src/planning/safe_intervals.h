@@ -71,7 +71,7 @@ class SafeIntervals {
   void assign(const ReservationTable& reservations);
 
   void see(Place place) {
-    if (reservations_ && group_of_[place] == kNoGroup) look_up(place);
+    if (reservations_ && group_of_[place] == kNoGroup) add_reserved_place(place);
   }
   // Upper bound on slot_count() until the next assign().
   int slot_limit() const { return slot_limit_; }
@@ -280,7 +280,7 @@ class SafeIntervals {
     return bar.from == place_of(from_slot) && bar.begin <= time && time <= bar.end &&
            (bar.copy == kFree || bar.copy == copy_of(from_slot));
   }
-  void look_up(Place place);
+  void add_reserved_place(Place place);
   void forget();
   void check(const Constraint& constraint);
   void keep(const Constraint& constraint);
@@ -289,7 +289,7 @@ class SafeIntervals {
   void keep_traversal(const Constraint& constraint);
   bool leaves_at_front(const Constraint& constraint) const;
   bool leaves_at_back(const Constraint& constraint) const;
-  RestrictedCorridor& chain_used(int corridor);
+  RestrictedCorridor& restricted_corridor(int corridor);
   Group& group(Place place);
   void group_inner_places();
   void group_bars();

@@ -106,7 +106,7 @@ class LemmaCollector : public ForestVisitor {
     std::vector<ProofExcess>& chosen = entry->excesses;
     std::ranges::stable_partition(
         chosen, [&](const ProofExcess& excess) { return needed.contains(excess.lemma); });
-    leave_out(chosen, bound_ - entry->cost);
+    remove_redundant(chosen, bound_ - entry->cost);
     for (const ProofExcess& excess : chosen) needed.insert(excess.lemma);
   }
   void split(const ProofEntry& entry) override {

@@ -137,8 +137,8 @@ class DecidingPass : public KeptParts {
     if (!level.first || !needs_) return std::nullopt;
     Constraints all =
         united(without(*level.first, level.fork.sides[0]), without(*needs_, level.fork.sides[1]));
-    if (!level.fork.why) return all;
-    return united(all, lemmas_[lemmas_[*level.fork.why].same_as].constraints);
+    if (!level.fork.lemma) return all;
+    return united(all, lemmas_[lemmas_[*level.fork.lemma].same_as].constraints);
   }
   Constraints without(const Constraints& constraints, const CertificateConstraint& side) const {
     Constraints rest;
@@ -185,7 +185,7 @@ class LaterPass : public KeptParts {
  protected:
   virtual void begin_lemma(LemmaNumber number) = 0;
   virtual void begin_theorem() = 0;
-  virtual void stays(const Fork& fork) = 0;
+  virtual void kept_split(const Fork& fork) = 0;
   virtual void leaf_of(const std::vector<LemmaNumber>& names) = 0;
 
   LemmaNumber named(LemmaNumber lemma) const { return lemmas_[lemma].same_as; }
@@ -193,7 +193,7 @@ class LaterPass : public KeptParts {
 
  private:
   Keep begin_split(std::size_t number, const Fork& fork) final {
-    if (keeps_.at(number) == Keep::kBoth) stays(fork);
+    if (keeps_.at(number) == Keep::kBoth) kept_split(fork);
     return keeps_[number];
   }
   Keep end_first_side(std::size_t number) final { return keeps_[number]; }
@@ -223,8 +223,8 @@ class NamingPass : public LaterPass {
  private:
   void begin_lemma(LemmaNumber number) override { of_lemma_ = &names_.at(number); }
   void begin_theorem() override { of_lemma_ = nullptr; }
-  void stays(const Fork& fork) override {
-    if (fork.why) name(named(*fork.why));
+  void kept_split(const Fork& fork) override {
+    if (fork.lemma) name(named(*fork.lemma));
   }
   void leaf_of(const std::vector<LemmaNumber>& names) override {
     for (const LemmaNumber lemma : names) name(lemma);
@@ -277,11 +277,11 @@ class WritingPass : public LaterPass {
     is_needed_ = true;
     put(text_);
   }
-  void stays(const Fork& fork) override {
-    if (!fork.why) return put(text_);
+  void kept_split(const Fork& fork) override {
+    if (!fork.lemma) return put(text_);
     const auto& [one, other] = fork.sides;
     put(fmt::format("later {} {} {} {} {}", one.agent, one.end, other.agent, other.end,
-                    numbers_[named(*fork.why)]));
+                    numbers_[named(*fork.lemma)]));
   }
   void leaf_of(const std::vector<LemmaNumber>& names) override {
     std::string line = "leaf";

@@ -20,7 +20,7 @@ enum class Keep : std::uint8_t { kBoth, kFirst, kSecond };
 // A line "split" or "later" with its two sides.
 struct Fork {
   std::array<CertificateConstraint, 2> sides;
-  std::optional<LemmaNumber> why;  // for "later": its lemma
+  std::optional<LemmaNumber> lemma;  // for "later": its lemma
 };
 
 class KeptParts : public CertificateVisitor {

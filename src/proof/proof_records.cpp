@@ -55,7 +55,7 @@ Cost covered(std::span<const ProofExcess> excesses, std::int64_t steps) {
   return statements.empty() ? 0 : covering_bound(statements, steps);
 }
 
-void leave_out(std::vector<ProofExcess>& excesses, Cost wanted, std::int64_t steps) {
+void remove_redundant(std::vector<ProofExcess>& excesses, Cost wanted, std::int64_t steps) {
   for (std::size_t i = excesses.size(); i-- > 0;) {
     std::vector<ProofExcess> rest = excesses;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));

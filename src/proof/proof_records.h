@@ -48,7 +48,7 @@ class ProofRecords : public ProofLog {
   void drop_records_without_lemmas();
 };
 
-// Default effort limit of covered() and leave_out().
+// Default effort limit of covered() and remove_redundant().
 inline constexpr std::int64_t kCoveringSteps = 100'000;
 // Returns a lower bound on the excess that `excesses` together imply (search/covering.h). `steps`
 // limits the effort. With 0 steps it only adds excesses of groups without a common agent.
@@ -56,7 +56,7 @@ Cost covered(std::span<const ProofExcess> excesses, std::int64_t steps = kCoveri
 
 // Removes, from the last to the first, each excess without which the remaining ones imply at least
 // `wanted`.
-void leave_out(std::vector<ProofExcess>& excesses, Cost wanted,
-               std::int64_t steps = kCoveringSteps);
+void remove_redundant(std::vector<ProofExcess>& excesses, Cost wanted,
+                      std::int64_t steps = kCoveringSteps);
 
 }  // namespace grove::detail

@@ -23,7 +23,7 @@ class Assignment {
         row_of_(columns_, kNone) {}
 
   // Adds a row. Returns false if the rows added so far and this one have no assignment.
-  bool enter(int row) {
+  bool add_row(int row) {
     distance_.assign(columns_, kForbidden);
     before_.assign(columns_, kNone);
     done_.assign(columns_, false);
@@ -103,7 +103,7 @@ std::optional<std::vector<int>> min_cost_assignment(
       "all rows are of one length");
   Assignment assignment(cost);
   for (int row = 0; row < static_cast<int>(cost.size()); ++row)
-    if (!assignment.enter(row)) return std::nullopt;
+    if (!assignment.add_row(row)) return std::nullopt;
   return assignment.columns_of_rows();
 }
 

@@ -54,7 +54,7 @@ class BoundedDp : public RtspSolver {
     using Kind = RtspAnswer::Kind;
     const ClassRoot root = class_root(matrix_, sequence_class);
     const Time relaxed = class_bound(root);
-    turn_to(sequence_class, relaxed);
+    set_class(sequence_class, relaxed);
     while (true) {
       const Time value = best_cost(matrix_, root, cost_to_go());
       const Time bound = std::max(relaxed, dag_.outside_bound());
@@ -86,7 +86,7 @@ class BoundedDp : public RtspSolver {
 
   // Changes the class. A graph of canonical sequences is valid for one class only, so it is
   // discarded.
-  void turn_to(const SequenceClass& sequence_class, Time relaxed) {
+  void set_class(const SequenceClass& sequence_class, Time relaxed) {
     if (sequence_class == class_) return;
     class_ = sequence_class;
     if (passed_) dag_ = SequenceDag(relaxed);

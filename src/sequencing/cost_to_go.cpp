@@ -100,7 +100,7 @@ class CostToGo::Graph : public Store {
     return other;
   }
   // Does nothing if no direct legs are available.
-  void turn_to_direct_legs() {
+  void use_direct_legs() {
     if (make_direct_) direct_ = std::make_shared<const DirectLegs>(make_direct_(), matrix());
   }
 
@@ -112,7 +112,7 @@ class CostToGo::Graph : public Store {
     if (!direct_) {
       const End end = build(far, limits);
       if (end != End::kTooLarge) return end == End::kBuilt;
-      turn_to_direct_legs();
+      use_direct_legs();
       return build(cost_limit, limits) == End::kBuilt;
     }
     End end = build(far, limits);
@@ -232,7 +232,7 @@ CostToGo CostToGo::in_order(const CostMatrix& matrix, Sequence order) {
 CostToGo CostToGo::as_graph(CostMatrix matrix, MakeDirectLegs direct) {
   auto graph = std::make_shared<Graph>(std::make_shared<const CostMatrix>(std::move(matrix)),
                                        std::move(direct));
-  graph->turn_to_direct_legs();
+  graph->use_direct_legs();
   return CostToGo(std::move(graph));
 }
 

@@ -18,7 +18,7 @@ class LocalSearch {
 
   Sequence run() {
     insert_all();
-    while (move_a_piece() || reverse_a_piece()) {
+    while (improve_by_or_opt() || improve_by_2_opt()) {
     }
     return sequence_;
   }
@@ -67,7 +67,7 @@ class LocalSearch {
   }
 
   // Makes the first move of a piece that lowers the cost. Returns false if none does.
-  bool move_a_piece() {
+  bool improve_by_or_opt() {
     const std::ptrdiff_t n = std::ssize(sequence_);
     for (std::ptrdiff_t size = 1; size <= std::min(kMaxSegment, n - 1); ++size)
       for (std::ptrdiff_t begin = 0; begin + size <= n; ++begin) {
@@ -87,7 +87,7 @@ class LocalSearch {
     return false;
   }
 
-  bool reverse_a_piece() {
+  bool improve_by_2_opt() {
     const std::int64_t before = cost();
     const std::ptrdiff_t n = std::ssize(sequence_);
     for (std::ptrdiff_t begin = 0; begin < n; ++begin)

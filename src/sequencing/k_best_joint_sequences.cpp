@@ -46,7 +46,7 @@ class KBestJointSequences::Queue {
       if (cost_bound(entry) == key && !list.known(entry.rank))
         list.resolve(entry.rank, list.cost_bound(entry.rank));
       const Cost bound = cost_bound(entry);
-      if (bound == key && list.known(entry.rank)) return give(entry, key);
+      if (bound == key && list.known(entry.rank)) return return_next(entry, key);
       if (bound < kInfiniteCost) queue_.push(bound, entry);
       if (bound == key) break;  // not known, not proven to cost more: limit or solver stop
     }
@@ -113,7 +113,7 @@ class KBestJointSequences::Queue {
     for (auto agent = begin; agent < agents_.size(); ++agent) add({base, agent, 1});
   }
 
-  JointSequence give(const Entry& entry, Cost cost) {
+  JointSequence return_next(const Entry& entry, Cost cost) {
     const auto index = static_cast<std::uint32_t>(returned_.size());
     returned_.push_back({cost, entry});
     add({entry.base, entry.agent, entry.rank + 1});
