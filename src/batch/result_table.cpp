@@ -37,7 +37,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path made(fs::path folder) {
+fs::path created(fs::path folder) {
   make_folder(folder);
   return folder;
 }
@@ -69,7 +69,7 @@ std::string differences(const Run& there, const Run& here, TableOf table) {
 }  // namespace
 
 ResultTable::ResultTable(fs::path folder, TableOf what)
-    : folder_(made(std::move(folder))), what_(what), lock_(folder_) {
+    : folder_(created(std::move(folder))), kind_(what), lock_(folder_) {
   read();
 }
 
@@ -104,7 +104,7 @@ const Row* ResultTable::find(const Run& run) const {
 }
 
 void ResultTable::require_same(const Row& row, const Run& run) const {
-  const std::string found = differences(row.run, run, what_);
+  const std::string found = differences(row.run, run, kind_);
   if (found.empty()) return;
   throw InputError(file().string(), "",
                    fmt::format("has a row of another run of {} on {} ({}); expected the same run; "
@@ -112,7 +112,7 @@ void ResultTable::require_same(const Row& row, const Run& run) const {
                                row.run.settings.method, row.run.instance, found));
 }
 
-bool ResultTable::stands(const Run& run) const {
+bool ResultTable::is_valid_result(const Run& run) const {
   const Row* row = find(run);
   if (row == nullptr || row->outcome.failed()) return false;
   require_same(*row, run);
@@ -124,11 +124,11 @@ bool ResultTable::stands(const Run& run) const {
 std::vector<std::size_t> ResultTable::begin(const std::vector<Run>& runs) {
   std::vector<std::size_t> left;
   std::vector<Pair> pairs;
-  if (what_ == TableOf::kPlans && !runs.empty())
+  if (kind_ == TableOf::kPlans && !runs.empty())
     for (const Row& row : rows_) require_same(row, runs.front());
   for (std::size_t i = 0; i < runs.size(); ++i) {
     order_.emplace(pair_of(runs[i]), i);
-    if (stands(runs[i])) continue;
+    if (is_valid_result(runs[i])) continue;
     left.push_back(i);
     pairs.push_back(pair_of(runs[i]));
   }

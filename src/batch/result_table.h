@@ -107,11 +107,11 @@ class ResultTable {
   using Pair = std::tuple<std::string, std::string, std::int64_t>;  // instance, method, seed
 
   Pair pair_of(const Run& run) const {
-    return {run.instance, run.settings.method, what_ == TableOf::kMethods ? run.settings.seed : 0};
+    return {run.instance, run.settings.method, kind_ == TableOf::kMethods ? run.settings.seed : 0};
   }
   void read();
   void require_same(const Row& row, const Run& run) const;
-  bool stands(const Run& run) const;
+  bool is_valid_result(const Run& run) const;
   void erase_rows_of(const std::vector<Pair>& pairs);
   void defer_started_runs(std::vector<std::size_t>& left, const std::vector<Run>& runs);
   void index_rows();
@@ -119,7 +119,7 @@ class ResultTable {
   std::filesystem::path begun_file() const { return folder_ / ".begun"; }
 
   const std::filesystem::path folder_;
-  const TableOf what_;
+  const TableOf kind_;
   const FolderLock lock_;
   std::vector<Row> rows_;
   std::map<Pair, std::size_t> index_;  // positions in rows_

@@ -33,7 +33,7 @@ void sort_in(Found& found, const fs::path& path) {
   found.has_instances |= name.ends_with(kInstanceSuffix);
 }
 
-Found look(const fs::path& place) {
+Found scan_folder(const fs::path& place) {
   Found found;
   try {
     const bool is_folder = fs::is_directory(place);
@@ -94,13 +94,13 @@ bool holds_scenarios(const fs::path& place) {
   if (place.string().ends_with(kScenario)) return true;
   std::error_code error;
   if (!fs::is_directory(place, error)) return false;
-  const Found found = look(place);
+  const Found found = scan_folder(place);
   return !found.scenarios.empty() && !found.has_instances;
 }
 
 SweptScenarios read_scenarios(const fs::path& place, const ScenarioSweep& sweep,
                               const InputRules& rules) {
-  Found found = look(place);
+  Found found = scan_folder(place);
   std::erase_if(found.scenarios, [&](const fs::path& path) {
     return !matches(path.stem().string(), sweep.scenarios);
   });

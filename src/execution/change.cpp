@@ -60,9 +60,9 @@ ClosedMap close_roads(const Roadmap& roadmap, const InstanceChange& change) {
   return {std::move(map), std::move(places)};
 }
 
-class Applying {
+class ChangeApplication {
  public:
-  Applying(const Instance& instance, const Plan& plan, const InstanceChange& change)
+  ChangeApplication(const Instance& instance, const Plan& plan, const InstanceChange& change)
       : instance_(instance), plan_(plan), change_(change), dropped_(dropped()) {
     require_free();
     if (change.blocked.empty() && change.closed_roads.empty())
@@ -232,7 +232,7 @@ class Applying {
 }  // namespace
 
 Changed apply(const Instance& instance, const Plan& plan, const InstanceChange& change) {
-  return Applying(instance, plan, change).run();
+  return ChangeApplication(instance, plan, change).run();
 }
 
 }  // namespace grove::detail

@@ -19,7 +19,7 @@ using Words = std::vector<std::string_view>;
 
 struct Unmodelled {
   std::string_view key;
-  std::string_view what;
+  std::string_view feature;
 };
 
 // Keys that users may expect in Grove's files, for features that Grove does not model (see
@@ -213,7 +213,7 @@ std::string names_of(const KnownObject& known) {
 std::string what_was_meant(const JsonValue& object, const std::string& key,
                            const KnownObject& known, const KnownObject& file) {
   const auto not_modelled = [](const Unmodelled& found) {
-    return fmt::format("Grove does not model {}; expected no such key", found.what);
+    return fmt::format("Grove does not model {}; expected no such key", found.feature);
   };
   const KnownKey* meant = key_meant(object, key, known);
   if (const Unmodelled* found = unmodelled(key)) return not_modelled(*found);

@@ -134,7 +134,7 @@ OppositeRoads opposite_roads(const std::vector<Road>& roads) {
     const auto pairs = pairs_alike(roads, there, back);
     count.alike += static_cast<int>(pairs.size());
     count.unlike += static_cast<int>(std::min(there.size(), back.size()) - pairs.size());
-    count.of_step += static_cast<int>(std::ranges::count_if(
+    count.single_step += static_cast<int>(std::ranges::count_if(
         pairs, [&](const auto& pair) { return roads[pair.first].steps == 1; }));
   });
   return count;

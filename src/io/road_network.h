@@ -66,9 +66,9 @@ SteppedRoads in_steps(const RoadNetwork& network, const StepScale& scale,
 // Numbers of pairs of one-way roads in opposite directions between the same two vertices. Such a
 // pair represents two lanes, on which agents can pass each other.
 struct OppositeRoads {
-  int alike = 0;    // pairs with equal numbers of steps
-  int unlike = 0;   // other pairs
-  int of_step = 0;  // those of `alike` with one step, on which agents cannot pass each other
+  int alike = 0;        // pairs with equal numbers of steps
+  int unlike = 0;       // other pairs
+  int single_step = 0;  // those of `alike` with one step, on which agents cannot pass each other
 };
 OppositeRoads opposite_roads(const std::vector<Road>& roads);
 

@@ -13,7 +13,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr Limits::Clock::duration kMemoryLookInterval = std::chrono::milliseconds(5);
+constexpr Limits::Clock::duration kMemoryCheckInterval = std::chrono::milliseconds(5);
 constexpr double kForEver = 4e9;  // seconds; longer times could overflow the clock
 
 // Set by set_shared_memory_accounting(): the number of processes that share memory, and the size of
@@ -58,13 +58,13 @@ Limits::Limits(const Limits& whole, double seconds) : whole_(&whole) {
 }
 
 bool Limits::stop_requested() const {
-  if (reason() != StopReason::kNone || finished_.load(std::memory_order_relaxed)) return true;
+  if (reason() != StopReason::kNone || cancelled_.load(std::memory_order_relaxed)) return true;
   if (whole_ && whole_->stop_requested()) stop(whole_->reason());
   if (interrupt_ && interrupt_->load(std::memory_order_relaxed)) stop(StopReason::kInterrupt);
   const Clock::time_point time = now();
   if (deadline_ && time >= *deadline_) stop(StopReason::kTime);
-  if (memory_limit_ && time.time_since_epoch().count() >= next_memory_look_.load()) {
-    next_memory_look_ = (time + kMemoryLookInterval).time_since_epoch().count();
+  if (memory_limit_ && time.time_since_epoch().count() >= next_memory_check_.load()) {
+    next_memory_check_ = (time + kMemoryCheckInterval).time_since_epoch().count();
     last_resident_ = resident_bytes();
     if (last_resident_ > *memory_limit_) stop(StopReason::kMemory);
   }

@@ -94,9 +94,9 @@ class Limits {
   }
   // Makes stop_requested() true from now on, so that the workers of a run that is complete end.
   // Does not change reason().
-  void cancel_workers() const { finished_.store(true, std::memory_order_relaxed); }
+  void cancel_workers() const { cancelled_.store(true, std::memory_order_relaxed); }
   // Reverts cancel_workers(). Call it only after all workers have ended.
-  void clear_cancel() const { finished_.store(false, std::memory_order_relaxed); }
+  void clear_cancel() const { cancelled_.store(false, std::memory_order_relaxed); }
   // Stops the run with this reason, unless it has already stopped with another one.
   void stop(StopReason reason) const;
   // Stops the run with StopReason::kMemory. Call it after a failed allocation, or after
@@ -109,9 +109,9 @@ class Limits {
   std::optional<Clock::time_point> deadline_;
   std::optional<std::size_t> memory_limit_;
   const std::atomic<bool>* interrupt_ = nullptr;
-  mutable std::atomic<bool> finished_{false};
+  mutable std::atomic<bool> cancelled_{false};
   mutable std::atomic<StopReason> reason_{StopReason::kNone};
-  mutable std::atomic<Clock::rep> next_memory_look_{0};
+  mutable std::atomic<Clock::rep> next_memory_check_{0};
   mutable std::atomic<std::size_t> last_resident_{0};
 };
 
