@@ -60,7 +60,7 @@ class CentralTreesTest : public ::testing::Test {
     trees_->add_counts(stats);
     return stats.counts.at(name);
   }
-  void settle_best() { nodes_.frontier.complete(nodes_.frontier.take()); }
+  void complete_best() { nodes_.frontier.complete(nodes_.frontier.take()); }
 
   testing::SmallSearch search_;
   Limits limits_;
@@ -79,7 +79,7 @@ TEST_F(CentralTreesTest, NextTreeIsDueAboveTheCostOfTheLastTree) {
   trees_->instantiate_due_tree();
   EXPECT_EQ(trees_->count(), 1);
   EXPECT_EQ(bounds_->lower_bound(), 8);
-  settle_best();
+  complete_best();
   nodes_.frontier.push(search_.child(9));
   trees_->instantiate_due_tree();
   EXPECT_EQ(trees_->count(), 2);
@@ -93,7 +93,7 @@ TEST_F(CentralTreesTest, NextTreeIsDueAboveTheCostOfTheLastTree) {
 TEST_F(CentralTreesTest, NoTreeIsDueWithinOmegaOfTheLastTree) {
   options_.omega = Omega::parse("0.5");
   begin({8, 10});
-  settle_best();
+  complete_best();
   nodes_.frontier.push(search_.child(12));
   trees_->instantiate_due_tree();
   EXPECT_EQ(trees_->count(), 1);
@@ -109,7 +109,7 @@ TEST_F(CentralTreesTest, RootIsPushedBeforeTheNextBoundRises) {
   std::vector<Cost> bounds_at_push;
   nodes_.when_pushed = [&] { bounds_at_push.push_back(bounds_->trees_from()); };
   begin({8, 10});
-  settle_best();
+  complete_best();
   trees_->refill_nodes();
   EXPECT_EQ(bounds_at_push, (std::vector<Cost>{8, 10}));
   EXPECT_EQ(bounds_->trees_from(), kInfiniteCost);
@@ -129,7 +129,7 @@ TEST_F(CentralTreesTest, IsNotOverWhileANodeIsLive) {
 TEST_F(CentralTreesTest, KeepsTheNextTreeAtALimit) {
   begin({8, 10});
   forest_->stopped = true;
-  settle_best();
+  complete_best();
   trees_->refill_nodes();
   EXPECT_EQ(trees_->count(), 1);
   EXPECT_EQ(bounds_->trees_from(), 10);
@@ -147,7 +147,7 @@ TEST_F(CentralTreesTest, PreparedTreeBoundsLaterTrees) {
   EXPECT_EQ(bounds_->trees_from(), 10);
   EXPECT_EQ(nodes_.frontier.open(), 1u);
   EXPECT_EQ(count("trees_prepared_unused"), 1);
-  settle_best();
+  complete_best();
   trees_->refill_nodes();
   EXPECT_EQ(nodes_.bound(), 10);
   EXPECT_EQ(bounds_->trees_from(), 12);
@@ -163,7 +163,7 @@ TEST_F(CentralTreesTest, PreparesTreesOnlyForTheFixedPolicy) {
 
 TEST_F(CentralTreesTest, RestartsWhileThatRaisesTheEvictedBound) {
   begin({8});
-  settle_best();
+  complete_best();
   nodes_.frontier.push(search_.child(9));
   nodes_.frontier.evict(1);
   trees_->refill_nodes();
@@ -171,7 +171,7 @@ TEST_F(CentralTreesTest, RestartsWhileThatRaisesTheEvictedBound) {
   EXPECT_EQ(nodes_.frontier.open(), 1u) << "the root again";
   EXPECT_EQ(nodes_.evicted_bound(), kInfiniteCost);
   EXPECT_FALSE(bounds_->over());
-  settle_best();
+  complete_best();
   nodes_.frontier.push(search_.child(9));
   nodes_.frontier.evict(1);
   trees_->refill_nodes();
@@ -183,7 +183,7 @@ TEST_F(CentralTreesTest, RestartsWhileThatRaisesTheEvictedBound) {
 
 TEST_F(CentralTreesTest, InstantiatesCheaperTreesBeforeARestart) {
   begin({8, 9});
-  settle_best();
+  complete_best();
   nodes_.frontier.push(search_.child(11));
   nodes_.frontier.evict(1);
   trees_->refill_nodes();

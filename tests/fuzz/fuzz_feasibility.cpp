@@ -41,11 +41,11 @@ class TinyInstances {
     seed_ = seed;
     Random random(seed);
     const Places starts = places(instance);
-    ask_for_places(instance, starts, all);
+    test_places(instance, starts, all);
     for (int i = 0; i < kOrders; ++i) {
-      ask_for_all(instance, shuffled(starts, random), all);
-      ask_for_all(instance, swapped(*std::next(all.begin(), random.below(std::ssize(all))), random),
-                  all);
+      test_all(instance, shuffled(starts, random), all);
+      test_all(instance, swapped(*std::next(all.begin(), random.below(std::ssize(all))), random),
+               all);
     }
   }
   int wrong() const { return wrong_; }
@@ -84,21 +84,21 @@ class TinyInstances {
   }
   // Tests for every agent and place whether the agent can visit the place before all agents are
   // back on their starts.
-  void ask_for_places(const Instance& instance, const Places& starts, const std::set<Places>& all) {
+  void test_places(const Instance& instance, const Places& starts, const std::set<Places>& all) {
     const World& world = instance.world();
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)
       for (Place place = 0; place < world.place_count(); ++place) {
         if (world.neighbors(place).empty()) continue;
         const bool is_possible =
             std::ranges::any_of(all, [&](const Places& where) { return where[agent] == place; });
-        ask(with(instance, starts, agent, place), is_possible);
+        test_instance(with(instance, starts, agent, place), is_possible);
       }
   }
-  void ask_for_all(const Instance& instance, const Places& goals, const std::set<Places>& all) {
-    ask(with(instance, goals, 0, instance.world().place(instance.agent(0).start)),
-        all.contains(goals));
+  void test_all(const Instance& instance, const Places& goals, const std::set<Places>& all) {
+    test_instance(with(instance, goals, 0, instance.world().place(instance.agent(0).start)),
+                  all.contains(goals));
   }
-  void ask(const Instance& instance, bool is_possible) {
+  void test_instance(const Instance& instance, bool is_possible) {
     ++asked_;
     if (!is_possible) ++impossible_;
     const auto reason = pebble_motion_infeasibility(instance);

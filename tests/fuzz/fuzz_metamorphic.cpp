@@ -288,7 +288,7 @@ bool valid(const Instance& instance, const Plan& plan) {
 
 struct Counts {
   std::int64_t instances = 0, with_plans = 0, plans = 0, descents = 0, expansions = 0,
-               steps_loose = 0, finished = 0, solves = 0, proven = 0, agreements = 0,
+               expansions_with_low_cutoff = 0, finished = 0, solves = 0, proven = 0, agreements = 0,
                infeasible = 0, unsolved = 0, histories = 0, histories_differ = 0;
 };
 
@@ -394,18 +394,18 @@ void descend(const TinyInstance& tiny, const Instance& instance, std::uint64_t s
         Expander fresh(problem, fresh_stops, {techniques, expander_seed});
         Expansion other = fresh.expand(node, cutoff, limits);
         while (other.unfinished) other = fresh.expand(node, cutoff, limits);
-        const auto said = [](const Expansion& e) {
+        const auto summary = [](const Expansion& e) {
           std::string text = e.plan ? fmt::format("plan {}", e.plan->cost) : "no plan";
           for (const NodePtr& c : e.children)
             text += fmt::format(", child {}/{}", c->bound(), c->cost());
           return text;
         };
         ++counts.histories;
-        if (said(expansion) != said(other)) {
+        if (summary(expansion) != summary(other)) {
           ++counts.histories_differ;
           if (counts.histories_differ <= 3)
             fmt::print("history: node {}/{} cutoff {}: {} | fresh: {}\n", node->bound(),
-                       node->cost(), cutoff, said(expansion), said(other));
+                       node->cost(), cutoff, summary(expansion), summary(other));
         }
       }
       if (expansion.plan && !valid(instance, *expansion.plan))
@@ -413,7 +413,7 @@ void descend(const TinyInstance& tiny, const Instance& instance, std::uint64_t s
       if (expansion.plan && cutoff < kInfiniteCost && expansion.plan->cost < node->bound())
         fail(tiny, "a plan below its node's bound", techniques, seed);
       if (cutoff <= plan.cost) {
-        ++counts.steps_loose;
+        ++counts.expansions_with_low_cutoff;
         for (const NodePtr& child : expansion.children) reached.push_back(child);
         continue;  // expands the same node again with a different cutoff
       }
@@ -656,8 +656,8 @@ int main_of(int argc, char** argv) {
       "finished {}, solves {}, proven {}, agreements {}, infeasible {}, unsolved {}, histories {} "
       "of which {} differ; {} failures\n",
       mode, seed, counts.instances, counts.with_plans, counts.plans, counts.descents,
-      counts.expansions, counts.steps_loose, counts.finished, counts.solves, counts.proven,
-      counts.agreements, counts.infeasible, counts.unsolved, counts.histories,
+      counts.expansions, counts.expansions_with_low_cutoff, counts.finished, counts.solves,
+      counts.proven, counts.agreements, counts.infeasible, counts.unsolved, counts.histories,
       counts.histories_differ, failures);
   return failures > 0;
 }

@@ -118,7 +118,7 @@ CrowdBoard open_board(int places) {
   const int width = std::max(3, static_cast<int>(std::sqrt(places)));
   const int height = std::max(3, (places + width - 1) / width);
   auto rows = wall(width, height);
-  for (std::string& row : rows) std::ranges::fill(row, '.');
+  for (std::string& row : rows) std::ranges::walk_free_place(row, '.');
   return on_grid(CrowdBoard::Kind::kOpen, rows);
 }
 
@@ -140,7 +140,7 @@ CrowdBoard two_rooms(int places) {
 CrowdBoard room_with_tail(int places, int tail) {
   const int side = std::max(3, static_cast<int>(std::sqrt(std::max(9, places - tail))));
   auto rows = wall(side + tail, side);
-  for (std::string& row : rows) std::fill(row.begin(), row.begin() + side, '.');
+  for (std::string& row : rows) std::walk_free_place(row.begin(), row.begin() + side, '.');
   std::vector<Position> marked;
   for (int x = side + tail - 1; x >= side; --x) {
     rows[0][x] = '.';
@@ -220,9 +220,9 @@ class Stroll {
   void go(int steps) {
     for (; steps > 0; --steps)
       if (!free_.empty() && (!may_follow_ || random_.percent(80)))
-        fill(free_[random_.below(free_.size())]);
+        walk_free_place(free_[random_.below(free_.size())]);
       else if (may_follow_)
-        turn_circle();
+        rotate_cycle();
   }
 
  private:
@@ -232,7 +232,7 @@ class Stroll {
   }
   // Repeatedly moves an agent from a neighbouring place to `free`, so that the free place makes a
   // random walk.
-  void fill(Place& free) {
+  void walk_free_place(Place& free) {
     Place last = kNoPlace;
     for (int i = random_.between(1, 30); i > 0; --i) {
       const Place from = random_.pick(board_.next_to[free]);
@@ -243,7 +243,7 @@ class Stroll {
       free = from;
     }
   }
-  void turn_circle() {
+  void rotate_cycle() {
     std::vector<Place> way{random_.pick(board_.places)};
     while (true) {
       std::vector<Place> next = board_.next_to[way.back()];

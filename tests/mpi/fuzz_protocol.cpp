@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
              tally.tried, tally.unfinished, tally.limit_reached, tally.resumed, tally.reopened,
              tally.restarts);
   fmt::print("{} nodes, {} batches, {} remote pricings, {} bounds, {} messages: {} false\n",
-             tally.nodes, tally.batches, tally.prices, tally.facts, tally.messages, failed);
+             tally.nodes, tally.batches, tally.remote_pricings, tally.learned_bounds,
+             tally.messages, failed);
   return failed == 0 ? 0 : 1;
 }

@@ -52,7 +52,7 @@ struct SlowWorker : Worker {
 // Random parameters of a schedule.
 struct Disturbances {
   explicit Disturbances(Rng& random)
-      : talk(pick(random, {10, 30, 30, 60})),
+      : poll_percent(pick(random, {10, 30, 30, 60})),
         freeze_once_in(pick(random, {500, 500, 3000})),
         freeze_on_news(pick(random, {0, 0, 1, 5})),
         longest_freeze(pick(random, {300, 1500, 5000})) {}
@@ -61,7 +61,7 @@ struct Disturbances {
     return values[random() % values.size()];
   }
 
-  int talk;            // percentage of steps in which a process polls for messages
+  int poll_percent;    // percentage of steps in which a process polls for messages
   int freeze_once_in;  // mean number of steps between freezes
   int freeze_on_news;  // probability of a freeze after a received message, in percent
   int longest_freeze;  // steps
@@ -84,7 +84,7 @@ struct Process {
 
   // Performs a random step that this process can make.
   Done step(Rng& random, const Disturbances& disturbances, double now) {
-    if (finished || chance(random, disturbances.talk))
+    if (finished || chance(random, disturbances.poll_percent))
       return {member.exchange_messages(now), false};
     SlowWorker& worker = *workers[random() % workers.size()];
     if (!member.rank().ended() || worker.turn) return {false, worker.step()};

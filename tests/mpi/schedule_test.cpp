@@ -19,8 +19,8 @@ TEST(RandomSchedules, NeverMakeFalseClaims) {
   }
   EXPECT_GT(tally.tried, 35);
   EXPECT_GT(tally.batches, 40) << "too few nodes were sent to test anything";
-  EXPECT_GT(tally.facts, 60) << "too few bounds were sent to test anything";
-  EXPECT_GT(tally.prices, 12) << "too little was priced remotely to test anything";
+  EXPECT_GT(tally.learned_bounds, 60) << "too few bounds were sent to test anything";
+  EXPECT_GT(tally.remote_pricings, 12) << "too little was priced remotely to test anything";
 }
 
 }  // namespace schedule_test

@@ -225,8 +225,8 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
     tally.nodes += stats.at("nodes_expanded");
     tally.batches += stats.at("node_batches");
     tally.restarts += stats.at("restarts");
-    tally.facts += stats.at("learned_bounds_sent");
-    if (stats.contains("remote_pricings")) tally.prices += stats.at("remote_pricings");
+    tally.learned_bounds += stats.at("learned_bounds_sent");
+    if (stats.contains("remote_pricings")) tally.remote_pricings += stats.at("remote_pricings");
   }
   return wrong;
 }

@@ -16,8 +16,8 @@ struct ScheduleTally {
   std::int64_t messages = 0;
   std::int64_t batches = 0;
   std::int64_t restarts = 0;
-  std::int64_t prices = 0;  // pricing problems that other ranks solved for rank 0
-  std::int64_t facts = 0;   // learned bounds that ranks sent to each other
+  std::int64_t remote_pricings = 0;  // pricing problems that other ranks solved for rank 0
+  std::int64_t learned_bounds = 0;   // learned bounds that ranks sent to each other
   std::int64_t resumed = 0;
   std::int64_t limit_reached = 0;
   std::int64_t reopened = 0;  // number of times that a single process resumed from a checkpoint

@@ -28,7 +28,7 @@ AgentStates::AgentStates(const Instance& instance, AgentIndex agent)
   arrive(start);
   number(start);
   for (State s = 0; s < count(); ++s) connect(s);
-  settle_costs();
+  compute_costs_to_go();
 }
 
 AgentStates::State AgentStates::number(const AgentState& standing) {
@@ -113,7 +113,7 @@ void AgentStates::connect(State s) {
 }
 
 // Value iteration until no cost changes, chosen for simplicity over speed.
-void AgentStates::settle_costs() {
+void AgentStates::compute_costs_to_go() {
   to_go_.assign(moves_.size(), kNever);
   for (State s = 0; s < count(); ++s)
     if (resting(s) || may_rest(states_[s])) to_go_[s] = 0;

@@ -59,7 +59,7 @@ class AgentStates {
   void arrive(AgentState& standing) const;
   bool may_rest(const AgentState& standing) const;
   std::vector<AgentState> next(const AgentState& standing) const;
-  void settle_costs();
+  void compute_costs_to_go();
 
   const Instance& instance_;
   const Agent& agent_;

@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::size_t kExaminedPerWay = 40;
 
-class Lister {
+class PathEnumerator {
  public:
-  Lister(const Instance& instance, AgentIndex agent, std::span<const Constraint> constraints,
-         Time most, std::size_t cap)
+  PathEnumerator(const Instance& instance, AgentIndex agent,
+                 std::span<const Constraint> constraints, Time most, std::size_t cap)
       : world_(instance.world()),
         states_(instance, agent),
         constraints_(constraints),
@@ -26,9 +26,9 @@ class Lister {
   std::optional<std::vector<PlacePath>> list() {
     extend(states_.start());
     if (examined_ > kExaminedPerWay * cap_ || ways_.size() > cap_) return std::nullopt;
-    std::vector<PlacePath> ways(ways_.begin(), ways_.end());
-    std::ranges::stable_sort(ways, {}, &PlacePath::size);
-    return ways;
+    std::vector<PlacePath> paths(ways_.begin(), ways_.end());
+    std::ranges::stable_sort(paths, {}, &PlacePath::size);
+    return paths;
   }
 
  private:
@@ -85,8 +85,8 @@ bool collide(const PlacePath& a, const PlacePath& b, bool may_follow) {
 
 class CheapestCombination {
  public:
-  CheapestCombination(const Instance& instance, std::span<const std::vector<PlacePath>> ways)
-      : may_follow_(instance.may_follow()), ways_(ways) {}
+  CheapestCombination(const Instance& instance, std::span<const std::vector<PlacePath>> paths)
+      : may_follow_(instance.may_follow()), ways_(paths) {}
   std::optional<Cost> least() {
     choose(0);
     return best_ < kInfiniteCost ? std::optional(best_) : std::nullopt;
@@ -127,14 +127,14 @@ class CheapestCombination {
 std::optional<std::vector<PlacePath>> paths_within(const Instance& instance, AgentIndex agent,
                                                    std::span<const Constraint> constraints,
                                                    Time most, std::size_t cap) try {
-  return Lister(instance, agent, constraints, most, cap).list();
+  return PathEnumerator(instance, agent, constraints, most, cap).list();
 } catch (const AgentStates::TooMany&) {
   return std::nullopt;
 }
 
 std::optional<Cost> least_joint_cost(const Instance& instance,
-                                     std::span<const std::vector<PlacePath>> ways) {
-  return CheapestCombination(instance, ways).least();
+                                     std::span<const std::vector<PlacePath>> paths) {
+  return CheapestCombination(instance, paths).least();
 }
 
 }  // namespace grove::detail::oracle

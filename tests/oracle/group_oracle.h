@@ -24,10 +24,10 @@ std::optional<std::vector<PlacePath>> paths_within(const Instance& instance, Age
                                                    std::span<const Constraint> constraints,
                                                    Time most, std::size_t cap);
 
-// Returns the least total cost of a collision-free combination of one path per agent. `ways`: the
+// Returns the least total cost of a collision-free combination of one path per agent. `paths`: the
 // paths of each agent, in ascending order of cost. Returns nullopt if every combination has a
 // collision.
 std::optional<Cost> least_joint_cost(const Instance& instance,
-                                     std::span<const std::vector<PlacePath>> ways);
+                                     std::span<const std::vector<PlacePath>> paths);
 
 }  // namespace grove::detail::oracle
