@@ -41,8 +41,8 @@ class InvalidPlan : public std::logic_error {
   Violation violation_;
 };
 
-// Throws InvalidPlan with the first violation that check() finds. Accepts a solution without a
-// plan, because such a solution does not claim one.
+// Throws InvalidPlan with the first violation that check() finds. Accepts every solution without a
+// plan.
 void require_valid_plan(const Instance& instance, const Solution& solution);
 
 }  // namespace grove::detail
