@@ -237,7 +237,7 @@ void recompute_costs(Plan& plan) {
   }
 }
 
-// Removes all claims except the costs of the plan.
+// Replaces the claimed omega, lower bound and status by those of a plan without a bound.
 void forget_claims(Solution& solution) {
   solution.omega = Omega::infinite();
   solution.lower_bound = 0;

@@ -53,7 +53,8 @@ class YamlValue {
 };
 
 // A parsed YAML file. The constructor throws InputError if the file cannot be read, is not exactly
-// one YAML document that is a map, or needs more memory than `rules` permits.
+// one YAML document that is a map, is larger than 32 MiB, or needs more memory than `rules`
+// permits.
 class YamlDocument {
  public:
   explicit YamlDocument(const std::filesystem::path& path, const InputRules& rules = {});
