@@ -102,7 +102,8 @@ struct Row {
 
 // The row as one line of JSON, without a line end. Invalid UTF-8 is replaced.
 std::string json_line(const Row& row);
-// The inverse of json_line(). Throws std::invalid_argument with a description of the error.
+// The inverse of json_line(). Also accepts rows of older versions. Throws std::invalid_argument
+// with a description of the error.
 Row parse_json_line(std::string_view line);
 
 // The header and a row of a CSV file (RFC 4180), with line ends. A missing value is empty.
