@@ -63,7 +63,7 @@ struct Stay {
   ActionIndex leaves = kNoAction;
 };
 
-// True if the next step of the turn `turn` begins in state `from`.
+// True if `turn` is an incomplete turn that has reached state `from`.
 bool continues(const Instance& instance, const Action& turn, State from) {
   return turn.kind == Action::Kind::kTurn && turn.to == from && instance.pose_of(from).steps > 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Action dependency graph (ADG; Hoenig et al. 2019, Ma et al. 2017): the actions of a plan, their
-// dependencies, and the task visits that they make. Robots that execute their actions in accordance
-// with the dependencies never collide, whatever their delays.
+// Action dependency graph (ADG; Hoenig et al. 2019, Ma et al. 2017): the actions of a plan, with
+// their dependencies and task visits. Robots that execute their actions in accordance with the
+// dependencies never collide, whatever their delays.
 #pragma once
 
 #include <cstdint>

@@ -46,8 +46,9 @@ ExecutionTrace simulate_nominal(const ActionDependencyGraph& order);
 Plan executed_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
                    const ExecutionTrace& trace);
 
-// A robot that does not complete its actions, and the robot for which it waits; both are the same
-// if the robot does not complete an action that it has begun.
+// A robot that does not complete its actions, and the robot for which it waits. A robot that does
+// not complete an action that it has begun waits for itself; in a ring, all robots wait for the
+// same one.
 struct BlockedRobot {
   AgentIndex agent = -1;
   AgentIndex waits_for = -1;

@@ -28,10 +28,9 @@ class FileLock {
 
 // Prevents other runs from writing the file `output` while this object exists, if the file system
 // supports locks. Locks the file .grove-NAME.lock in the same folder, and removes it in the
-// destructor. (If a run is killed, its
-// lock file remains without a lock, and the next run reuses it.) Does not lock special files such
-// as /dev/null. Also does not lock a file in a folder that is not writable, because writing that
-// file will fail anyway. One thread at a time.
+// destructor. (If a run is killed, its lock file remains without a lock, and the next run reuses
+// it.) Does not lock special files such as /dev/null. Also does not lock a file in a folder that is
+// not writable, because writing that file will fail anyway. One thread at a time.
 class OutputLock {
  public:
   // Throws InputError if another run holds the lock (the message names that run), or if the lock

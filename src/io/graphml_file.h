@@ -18,7 +18,7 @@
 
 namespace grove::detail {
 
-// Reads a file. Throws InputError, with line and column where there is one, for invalid files.
+// Reads a file. Throws InputError, with line and column if they are known, for invalid files.
 // Invalid are: encodings other than UTF-8, no node, several graphs, nodes without a position,
 // graphs within nodes, hyperedges, repeated or unknown ids, numbers that are not finite, lengths
 // and times that are not positive, and a document type with declarations of its own (entities are

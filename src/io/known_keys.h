@@ -47,8 +47,7 @@ const KnownObject& solver_keys();
 // message that does not quote the file, if no key of the file is, or resembles, a key of its kind.
 // Otherwise throws InputError for the first unknown key; the message suggests a similar key, names
 // the object to which the key belongs, states that Grove does not model the key, or lists the known
-// keys. Ignores "$schema" and keys that begin with
-// '_', which are for people and other programs.
+// keys. Ignores "$schema" and keys that begin with '_', which are for people and other programs.
 void require_known_keys(const JsonValue& value, const KnownObject& known);
 
 }  // namespace grove::detail

@@ -181,8 +181,8 @@ class LifReader {
                                               type, listed(types)));
   }
 
-  // Whether the chosen vehicle type may use a node or an edge, and its properties there. If a type
-  // is named, it may use only elements that list it. nullopt: the element lists no type.
+  // Whether the vehicle type may use a node or an edge, and its properties there; nullopt: none are
+  // given. A type that the caller has named may use only the elements that list it.
   struct Use {
     bool may = true;
     std::optional<JsonValue> properties;

@@ -40,9 +40,8 @@ void write_path_lists(const std::filesystem::path& path, const Instance& instanc
 // (https://github.com/MAPF-Competition/PlanViz). Paths are sequences of actions: U, D, L, R, where
 // U is one row down; or F, R, C for robots that turn; and W for a wait. Each agent has one task in
 // the file, whose errands are the agent's tasks in the order of its visits and then its
-// destination; an agent without errands has none.
-// Throws NotRepresentable if the map is a roadmap, if a turn takes more than one step, or if only
-// some robots turn.
+// destination; an agent without errands has no task. Throws NotRepresentable if the map is a
+// roadmap, if a turn takes more than one step, or if only some robots turn.
 void write_planviz(const std::filesystem::path& path, const Instance& instance,
                    const Solution& solution);
 

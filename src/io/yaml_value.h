@@ -19,8 +19,8 @@
 
 namespace grove::detail {
 
-// A value in a YamlDocument, which must outlive the value. Every getter throws InputError if the
-// value does not have the requested type or range.
+// A value in a YamlDocument, which must outlive the value and must not be moved. Every getter
+// throws InputError if the value does not have the requested type or range.
 class YamlValue {
  public:
   YamlValue(YAML::Node node, const std::string& file) : node_(std::move(node)), file_(&file) {}

@@ -19,8 +19,8 @@ namespace grove::detail {
 enum class Heading : std::uint8_t { kNorth, kEast, kSouth, kWest };
 inline constexpr std::array<Heading, 4> kHeadings{Heading::kNorth, Heading::kEast, Heading::kSouth,
                                                   Heading::kWest};
-// letter() returns 'N', 'E', 'S' or 'W'. heading_of() is its inverse. Returns nullopt if `text` is
-// not one of these letters.
+// letter() returns 'N', 'E', 'S' or 'W'. heading_of() is its inverse; it returns nullopt if `text`
+// is not one of these letters.
 char letter(Heading heading);
 std::optional<Heading> heading_of(std::string_view text);
 // The adjacent headings: clockwise, and counterclockwise.

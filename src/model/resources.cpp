@@ -71,7 +71,7 @@ bool lists(std::string_view controllers, std::string_view name) {
 }
 
 // The number in an environment variable. Returns nullopt if the variable is not set or is not an
-// integer >= 1.
+// integer from 1 to 2^31 - 1.
 std::optional<std::int64_t> count(const Environment& environment, const char* name) {
   const char* value = environment(name);
   if (value == nullptr) return std::nullopt;
