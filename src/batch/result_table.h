@@ -21,7 +21,8 @@
 //
 // An instance that crashes the whole program (usually for lack of memory) would do so again and
 // delay all others. Runs that an earlier command started but did not finish therefore come last, in
-// ascending order of the number of times they were started. DIR/.begun lists them.
+// ascending order of the number of times their instances were started. DIR/.begun lists these
+// instances.
 #pragma once
 
 #include <cstddef>

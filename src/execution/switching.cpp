@@ -185,8 +185,8 @@ class Switching {
   bool is_begun(ActionIndex a) const { return result_.trace.begin[a] <= now_; }
   bool is_in_ring(ActionIndex a) const { return order_.step(step_of_[a]).size() > 1; }
 
-  // The action for which `a` waits on its place; kNoAction if there is none, or if it belongs to
-  // the same ring.
+  // The action of another robot that must be completed before `a` begins; kNoAction if there is
+  // none, or if both actions belong to one ring.
   ActionIndex after(ActionIndex a) const {
     const ActionIndex other = rows_.after(a);
     return other != kNoAction && step_of_[other] == step_of_[a] ? kNoAction : other;

@@ -136,9 +136,8 @@ class Instance {
   // which may_rest() is true; empty for an idle agent, which may rest in any state.
   std::vector<State> states_visiting(TaskIndex task) const;
   std::vector<State> states_to_rest(AgentIndex agent) const;
-  // True if the agent rests on the last stop of its sequence. This holds for an agent without a
-  // destination that has tasks, none of which takes time, because it can visit such a task once
-  // more at the end.
+  // True if the agent rests on the last stop of its sequence: if it has tasks but no destination,
+  // and none of its tasks takes time, so that it can visit a task once more at the end.
   bool rests_on_last_stop(AgentIndex agent) const;
   // All tasks of the agent, in the order in which it visits them if it visits its stops in the
   // order `stops` (positions in Agent::stops).

@@ -62,8 +62,8 @@ AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
 // all tasks are visited, and the agent may rest at the end of the path.
 AgentPlan plan_of_path(const Instance& instance, AgentIndex agent, const Path& path);
 // The inverse of plan_of_path(): the path until the agent finishes, with states at work. However,
-// it moves each task execution within a turn to before that turn or, if the agent starts within
-// this turn, to its start pose. Precondition: `plan` is valid.
+// it moves each task execution within a turn back to the last earlier pose that is not within a
+// turn or is the agent's start. Precondition: `plan` is valid.
 Path walked_path(const Instance& instance, AgentIndex agent, const AgentPlan& plan);
 
 struct Plan {
