@@ -24,8 +24,8 @@ namespace grove::detail::batch {
 //
 // Throws InputError, with the line of a manifest, if a line is malformed, a file does not exist, an
 // instance occurs twice, an id is unsuitable as a file name or not unique, or there is no instance.
-// The instances themselves
-// are not checked: an invalid instance is reported in its own row. `rules` apply to all entries.
+// The instances themselves are not checked: an invalid instance is reported in its own row. `rules`
+// apply to all entries.
 std::vector<Entry> read_manifest(const std::filesystem::path& manifest_or_folder,
                                  const InputRules& rules = {});
 
