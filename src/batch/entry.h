@@ -9,7 +9,7 @@
 
 namespace grove::detail::batch {
 
-// An instance of a batch. Paths are relative to the working directory.
+// An instance of a batch. Relative paths are relative to the working directory.
 struct Entry {
   // Unique in its batch; part of the names of the instance's files. A printable relative path
   // without a suffix.

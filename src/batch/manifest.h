@@ -22,9 +22,10 @@ namespace grove::detail::batch {
 // folder, the id consists of the file's name and the name of the file's folder. An id does not
 // depend on the other instances of the batch.
 //
-// Throws InputError, with the line of a manifest, if a file does not exist, an instance occurs
-// twice, two instances would have the same id, or there is no instance. The instances themselves
-// are not checked: an invalid instance is reported in its own row. `rules` apply to all entries.
+// Throws InputError, with the line of a manifest, if a line is malformed, a file does not exist, an
+// instance occurs twice, an id is unsuitable as a file name or not unique, or there is no instance.
+// The instances themselves are not checked: an invalid instance is reported in its own row. `rules`
+// apply to all entries.
 std::vector<Entry> read_manifest(const std::filesystem::path& manifest_or_folder,
                                  const InputRules& rules = {});
 

@@ -63,16 +63,18 @@ struct Outcome {
 };
 
 // The outcome of a run that returned `solution` for `instance`. Verifies everything that the
-// checker can verify. Does not set first_plan_s.
+// checker can verify. Does not set first_plan_s, trace, anytime, and the members about other
+// solvers' claims and about certificates.
 Outcome outcome_of(const Instance& instance, const Solution& solution);
 
-// Reduces a trace to at most max(most, 2) points: repeatedly removes every second point, but never
-// the first or the last one.
+// Reduces a trace to at most max(max_count, 2) points: repeatedly removes every second point, but
+// never the first or the last one.
 void thin_out(std::vector<TracePoint>& trace, std::size_t max_count);
 
 // Text such as "0.25:120:100 1.5:118:-": seconds, cost, lower bound.
 std::string trace_text(const std::vector<TracePoint>& trace);
-// The inverse of trace_text(). Throws std::invalid_argument.
+// The inverse of trace_text(), which rounds times to microseconds. Throws std::invalid_argument if
+// `text` has another form.
 std::vector<TracePoint> parse_trace(const std::string& text);
 
 }  // namespace grove::detail::batch

@@ -24,7 +24,8 @@ struct Workload {
 // time of pieces in progress, divided by the number of completed pieces. (Without the time of
 // pieces in progress the estimate would be too low, because easy pieces are completed first.)
 std::optional<double> seconds_each(const Workload& work);
-// The expected remaining time, in seconds. Returns nullopt before the first piece is completed.
+// The expected remaining time, in seconds; 0 if no pieces are left. Otherwise returns nullopt
+// before the first piece is completed.
 std::optional<double> seconds_left(const Workload& work);
 
 // Text such as "1:02:03" or "2:03", in whole seconds.
@@ -47,7 +48,8 @@ struct ProgressStyle {
   std::function<void(std::string_view)> write;
 };
 
-// Displays progress, at a limited frequency. One thread at a time.
+// Displays progress. To limit the frequency, the caller calls show() only if is_due(). One thread
+// at a time.
 class ProgressDisplay {
  public:
   explicit ProgressDisplay(ProgressStyle style) : style_(std::move(style)) {}

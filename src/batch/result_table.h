@@ -21,7 +21,8 @@
 //
 // An instance that crashes the whole program (usually for lack of memory) would do so again and
 // delay all others. Runs that an earlier command started but did not finish therefore come last, in
-// ascending order of the number of times they were started. DIR/.begun lists them.
+// ascending order of the number of times their instances were started. DIR/.begun lists these
+// instances.
 #pragma once
 
 #include <cstddef>
@@ -49,8 +50,7 @@ class LineFile {
   // Creates the file if it is missing. Throws InputError if it cannot be written.
   explicit LineFile(std::filesystem::path path);
 
-  // Appends `lines`, each of which ends with a newline, in one write. Throws InputError if that
-  // fails.
+  // Appends `lines`, each of which ends with a newline. Throws InputError if that fails.
   void append(std::string_view lines);
   // Returns once everything appended would survive a system crash. Throws InputError if that fails.
   void flush();
@@ -61,7 +61,7 @@ class LineFile {
 };
 
 // The complete lines of `text`, the content of a LineFile, as views into `text`. An incomplete last
-// line is omitted.
+// line, and empty lines at the end, are omitted.
 std::vector<std::string_view> whole_lines(std::string_view text);
 
 enum class TableOf : std::uint8_t {
@@ -100,7 +100,8 @@ class ResultTable {
 
   // All rows, in the order in which the runs ended.
   const std::vector<Row>& rows() const { return rows_; }
-  // The row of a run. Returns nullptr if there is none. Valid until the next append().
+  // The row of a run. Returns nullptr if there is none. The pointer is valid until the next call of
+  // append().
   const Row* find(const Run& run) const;
 
  private:

@@ -38,7 +38,8 @@ Json ratio(std::optional<Cost> numerator, std::optional<Cost> denominator) {
   return rounded(static_cast<double>(*numerator) / static_cast<double>(*denominator));
 }
 
-// (cost - lower bound) / lower bound. Returns null if the lower bound is 0 and the cost is not.
+// (cost - lower bound) / lower bound; 0 if both are equal. Returns null if one of them is missing,
+// or if only the lower bound is 0.
 Json gap(const Outcome& outcome) {
   if (!outcome.cost || !outcome.lower_bound) return nullptr;
   if (*outcome.cost == *outcome.lower_bound) return 0.0;

@@ -6,8 +6,9 @@
 //
 //     instance, method, options      Entry::id; name of the method; its options as typed
 //     map, scenario, agents, tasks, problem     InstanceMetadata; missing: the instance is
-//     unreadable omega, seed, time_limit_s      settings of the run solved the run ended by itself,
-//     before any limit, with a re-checked
+//                                    unreadable
+//     omega, seed, time_limit_s      settings of the run
+//     solved                         the run ended by itself, before any limit, with a re-checked
 //                                    plan; anytime: it had a plan in time
 //     status                         as in the plan file; or "error": it crashed, or Grove's plan
 //                                    is invalid; or "unsupported": the method does not support the
@@ -32,7 +33,7 @@
 //     counts                         other counters, without zeros, named as in the plan file:
 //                                    "bypasses=2 joint_mdd_nodes=77"
 //     solver                         adapter of another solver; missing: Grove
-//     claimed_cost, claimed_lower_bound, claimed_s     claims of another solver: plan and time
+//     claimed_cost, claimed_lower_bound, claimed_s     claims of another solver
 //     anytime                        the run uses its whole time limit, which is not a failure
 //     trace                          the plans found on the way, as reported by the run, up to the
 //                                    one that was re-checked: "0.25:120:100 1.5:118:-" (seconds,
@@ -101,7 +102,8 @@ struct Row {
 
 // The row as one line of JSON, without a line end. Invalid UTF-8 is replaced.
 std::string json_line(const Row& row);
-// The inverse of json_line(). Throws std::invalid_argument with a description of the error.
+// The inverse of json_line(). Also accepts rows of older versions. Throws std::invalid_argument
+// with a description of the error.
 Row parse_json_line(std::string_view line);
 
 // The header and a row of a CSV file (RFC 4180), with line ends. A missing value is empty.

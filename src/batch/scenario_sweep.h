@@ -25,14 +25,15 @@ struct SweptScenarios {
 // Lists the instances of a sweep. `place` is FILE.scen, or a folder with such files in it or below,
 // as in Moving AI's archives. The map that a scenario names is the file of that name in the
 // scenario's folder; if there is none, it is the only file of that name in `place` or below. Throws
-// InputError if a file cannot be read, a map is missing or ambiguous, or no instance results.
+// InputError if a file cannot be read, a map is missing or ambiguous, or there is no instance.
 SweptScenarios read_scenarios(const std::filesystem::path& place, const ScenarioSweep& sweep,
                               const InputRules& rules = {});
 
-// True if `place` is a scenario, or has scenarios but no *.cts.json files in it or below.
+// True if `place` is a scenario, or a folder that contains scenarios but no *.cts.json files in it
+// or below. Throws InputError if the folder cannot be read.
 bool holds_scenarios(const std::filesystem::path& place);
 
-// True if `name` matches `pattern`, for example "room-*-1".
+// True if `name` matches `pattern`, for example "room-*-1", where * matches any text.
 bool matches(std::string_view name, std::string_view pattern);
 
 }  // namespace grove::detail::batch

@@ -8,7 +8,7 @@
 //
 // Claim 1: robots do not collide, whatever the delays. Proof: a move onto a place begins only after
 // the previous robot in the row has completed its move away. By induction over the row, the stays
-// on a place, each from the begin of the move onto it to the end of the move away, do not overlap
+// on a place, each from the start of the move onto it to the end of the move away, do not overlap
 // during execution either. The exception is a ring: in one joint step each robot enters the place
 // that the next robot leaves. Two robots never swap places, because in a swap each robot enters the
 // place that the other one leaves, so the two moves would be a ring. The plan contains no swap, so
@@ -63,7 +63,7 @@ struct Stay {
   ActionIndex leaves = kNoAction;
 };
 
-// True if a step of a turn from state `from` belongs to the turn of action `turn`.
+// True if `turn` is an incomplete turn that has reached state `from`.
 bool continues(const Instance& instance, const Action& turn, State from) {
   return turn.kind == Action::Kind::kTurn && turn.to == from && instance.pose_of(from).steps > 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Action dependency graph (ADG; Hoenig et al. 2019, Ma et al. 2017): the actions of a plan, the
-// dependencies between them, and the task visits that they make. Robots that execute their actions
-// in accordance with the dependencies never collide, whatever their delays.
+// Action dependency graph (ADG; Hoenig et al. 2019, Ma et al. 2017): the actions of a plan, with
+// their dependencies and task visits. Robots that execute their actions in accordance with the
+// dependencies never collide, whatever their delays.
 #pragma once
 
 #include <cstdint>
@@ -24,15 +24,15 @@ struct Action {
   State from = kNoState;  // base states (world.h)
   State to = kNoState;    // base state at completion; equal to `from` for kWork
   TaskIndex task = -1;    // for kWork only
-  Time begin = 0;         // begin time in the plan
-  Time steps = 1;         // duration in the plan
+  Time begin = 0;         // begin time in the plan, >= 0
+  Time steps = 1;         // duration in the plan, from `begin`
 };
 
 // The moves, turns and task executions of a plan, without its waits, and the dependencies between
 // these actions. An action may begin when
 // - the previous action of the same robot is completed, and
 // - the action after(), if any, is completed. For a move onto a place, this is the move with which
-//   the robot that is there before leaves it. A moving robot occupies both places until it has
+//   the robot that is on it before leaves it. A moving robot occupies both places until it has
 //   arrived.
 // The moves of robots that follow each other in a ring depend on each other in a cycle. Such moves
 // are one joint step. They begin together, when all their dependencies outside the ring are
@@ -40,9 +40,10 @@ struct Action {
 // action_dependency_graph.cpp. Immutable: any thread may read it.
 class ActionDependencyGraph {
  public:
-  // Throws std::invalid_argument if `plan` has collisions or lacks agents. Removes transitive
+  // Throws std::invalid_argument if two robots of `plan` are on one place at the same time or swap
+  // places, or if its number of agents differs from that of `instance`. Removes transitive
   // dependencies, which are dependencies on another robot's action that the remaining ones imply.
-  // O(actions * (log actions + agents / 16)).
+  // O(actions * (log actions + agents / 16)), plus the total length of the paths.
   ActionDependencyGraph(const Instance& instance, const Plan& plan);
 
   // All actions, ordered by agent, then by time. The actions of an agent are begin_of(agent), ...,

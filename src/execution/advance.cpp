@@ -31,7 +31,7 @@ Time visit_time(const Instance& instance, const AgentPlan& plan, TaskIndex index
 }
 
 // If the agent rests on the last stop of its sequence, moves the tasks on its last place to the end
-// of the sequence. They need not be there, because the agent may have visited that place earlier.
+// of the sequence. They may be earlier in the sequence if the path visits that place several times.
 void end_on_the_place_of_rest(const Instance& instance, AgentIndex agent, AgentPlan& plan) {
   if (!instance.rests_on_last_stop(agent)) return;
   const Place rest = instance.world().place(plan.path.back());

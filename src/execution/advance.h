@@ -13,7 +13,7 @@ namespace grove::detail {
 struct Remainder {
   Instance instance;
   Plan plan;
-  // By AgentIndex: true if the agent has a destination only in order that `plan` is valid; see
+  // By AgentIndex: true if the agent has been given a destination only so that `plan` is valid; see
   // advance().
   std::vector<bool> ends_with_plan;
 };

@@ -17,7 +17,8 @@ struct Delay {
 };
 
 // Thrown for an impossible delay: the robot would be at a time before its start, or it would have
-// begun an action that it cannot have begun, because another late robot is in its way.
+// begun an action that it cannot have begun, because another late robot is in its way. Also thrown
+// if a robot is named twice.
 class InfeasibleDelay : public std::invalid_argument {
  public:
   InfeasibleDelay(AgentIndex agent, const std::string& message)

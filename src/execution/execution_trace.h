@@ -23,9 +23,9 @@ struct ExecutionTrace {
   }
 };
 
-// Returns the duration in time steps of an action that begins at `begin`, which must be at least
-// its duration in the plan; or kNever if the robot never completes the action. It is called once
-// for each action that begins.
+// Returns the duration of an action that begins at `begin`, in time steps: at least its duration in
+// the plan, or kNever if the robot never completes the action. It is called once for each action
+// that begins.
 using Duration = std::function<Time(ActionIndex action, Time begin)>;
 
 // Returns begin + duration; kNever if `duration` is kNever. Throws std::overflow_error if the sum
@@ -46,13 +46,15 @@ ExecutionTrace simulate_nominal(const ActionDependencyGraph& order);
 Plan executed_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
                    const ExecutionTrace& trace);
 
-// A robot that does not complete its actions, and the robot for which it waits; both are the same
-// if the robot does not complete an action that it has begun.
+// A robot that does not complete its actions, and the robot for which it waits. A robot that does
+// not complete an action that it has begun waits for itself; in a ring, all robots wait for the
+// same one.
 struct BlockedRobot {
   AgentIndex agent = -1;
   AgentIndex waits_for = -1;
 };
-// Returns all robots that did not complete all their actions, in order of AgentIndex.
+// Returns all robots that did not complete all their actions, in the order of the steps that
+// contain their first incomplete actions.
 std::vector<BlockedRobot> blocked_robots(const ActionDependencyGraph& order,
                                          const ExecutionTrace& trace);
 

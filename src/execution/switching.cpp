@@ -63,10 +63,10 @@ class PlaceRows {
     return before.agent == visits_[visit].agent ? kNoAction : before.leaves;
   }
 
-  // Returns the visits to the contested places: the longest run of places, with the one that
-  // `entering` enters, that both robots visit one after another, in the same or in opposite
-  // directions. Each pair is (visit by `other`, visit by the robot of `entering`) to one place.
-  // Places that `other` does not pass first are left out.
+  // Returns the visits to the contested places: the place that `entering` enters, and the places
+  // around it that both robots visit consecutively, in the same or in opposite directions. Each
+  // pair is (visit by `other`, visit by the robot of `entering`) to one place. Places that `other`
+  // does not pass first are omitted. Returns no pairs if `other` does not pass the place first.
   std::vector<std::pair<int, int>> group(ActionIndex entering, AgentIndex other) const {
     const int mine = number_[entering];
     const auto& row = rows_[place_[mine]];
@@ -185,8 +185,8 @@ class Switching {
   bool is_begun(ActionIndex a) const { return result_.trace.begin[a] <= now_; }
   bool is_in_ring(ActionIndex a) const { return order_.step(step_of_[a]).size() > 1; }
 
-  // The action for which `a` waits on its place; kNoAction if there is none, or if it belongs to
-  // the same ring.
+  // The action of another robot that must be completed before `a` begins; kNoAction if there is
+  // none, or if both actions belong to one ring.
   ActionIndex after(ActionIndex a) const {
     const ActionIndex other = rows_.after(a);
     return other != kNoAction && step_of_[other] == step_of_[a] ? kNoAction : other;
@@ -222,7 +222,7 @@ class Switching {
     if (end < kNever) event_times_.push(end);
   }
 
-  // Attempts a switch if the robot has waited long enough for another one.
+  // Attempts a switch if the robot has waited long enough for another robot.
   void consider(AgentIndex agent) {
     const ActionIndex a = next_[agent];
     if (a == order_.end_of(agent) || is_begun(a) || is_in_ring(a)) return;

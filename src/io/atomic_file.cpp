@@ -26,8 +26,9 @@ namespace fs = std::filesystem;
 constexpr std::string_view kTemporary = ".grove-";
 constexpr auto kMaxPause = std::chrono::hours(1);  // between two writes to a file
 
-// Returns the path of the file to write, which is `path` with symbolic links resolved. Throws
-// InputError if the file could not be written.
+// Returns the path of the file to write, which is `path` with symbolic links resolved unless it is
+// a special file. Sets `status` to the status of this file. Throws InputError if the path names a
+// directory or a file without write permission.
 fs::path resolved(const fs::path& path, fs::file_status& status) {
   std::error_code error;
   status = fs::status(path, error);
@@ -87,8 +88,9 @@ void clear_abandoned_once(const fs::path& folder) {
   if (cleared.insert(folder).second) clear_abandoned(folder);
 }
 
-// Creates an empty file, which is locked while it is open. Returns nullopt if another process has
-// removed the file as abandoned.
+// Creates an empty file, which is locked while it is open, if the file system supports locks.
+// Returns a descriptor that is not open if the file cannot be created. Returns nullopt if another
+// process has removed the file as abandoned, or is about to.
 std::optional<FileDescriptor> make_locked(const fs::path& path) {
   FileDescriptor file(path, O_WRONLY | O_CREAT | O_EXCL);
   if (!file.is_open()) return file;

@@ -16,13 +16,14 @@ namespace grove::detail {
 // machine.
 enum class Durability : std::uint8_t { kProcess, kMachine };
 
-// Replaces the file at `path` atomically. write() writes to a temporary file in the same folder.
-// commit() flushes this file to disk for Durability::kMachine, and renames it. Without commit() the
-// old file remains, and the destructor removes the temporary file. (If the process is killed, the
-// temporary file .grove-*.tmp remains until a later process writes in that folder.) Special files
-// are written to directly. One thread at a time. All functions except the destructor throw
-// InputError on failure; after that the object can only be destroyed. For SIGXFSZ see
-// write_file_atomically().
+// Replaces the file at `path`, or the file to which it links, atomically. write() writes to a
+// temporary file in the same folder. commit() flushes the temporary file to disk for
+// Durability::kMachine, and renames it. Without commit() the old file remains, and the destructor
+// removes the temporary file. (If the process is killed, the temporary file .grove-*.tmp remains
+// until a later process writes in that folder; if this is on another host, at least one hour
+// later.) Special files are written to directly. One thread at a time. All functions except the
+// destructor throw InputError on failure; after that the object can only be destroyed. For SIGXFSZ
+// see write_file_atomically().
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& path);
@@ -48,8 +49,9 @@ class AtomicFile {
 void write_file_atomically(const std::filesystem::path& path, std::string_view content,
                            Durability durability = Durability::kMachine);
 
-// True if write_file_atomically() writes directly to this file. This includes /dev/stdout even if
-// it is a regular file, because other processes may have the file open.
+// True if write_file_atomically() writes directly to this file. This includes /dev/stdout,
+// /dev/stderr, /dev/fd/* and /proc/* even if they are regular files, because other processes may
+// have these files open. `status` is the status of the file to which `path` leads.
 bool is_special_file(const std::filesystem::path& path);
 bool is_special_file(const std::filesystem::path& path, const std::filesystem::file_status& status);
 

@@ -8,9 +8,9 @@ namespace grove::detail {
 
 // Returns `text` as a CSV field, quoted if necessary. Puts an apostrophe in front of a text that a
 // spreadsheet would interpret as a formula (OWASP, CSV injection), which is one that is not a
-// number and begins with =, +, -, @, a tab or a CR. Also puts one in front of a text that begins
-// with apostrophes followed by one of these characters, so that a reader can always undo this by
-// removing exactly one apostrophe.
+// number and begins with =, +, -, @, a tab or a CR. Also puts one in front of a text that consists
+// of apostrophes followed by such a formula, so that a reader can always undo this by removing
+// exactly one apostrophe.
 std::string csv_cell(const std::string& text);
 
 }  // namespace grove::detail

@@ -20,9 +20,9 @@ struct PoseSample {
   double seconds = 0;
   double x = 0;  // on a grid in cells, with y downwards; on a roadmap in metres, with y upwards
   double y = 0;
-  double angle = 0;  // heading in degrees clockwise from north; NaN: unknown
-  std::int32_t completed = 0;
-  std::uint8_t state = 0;  // index in kDriveStates
+  double angle = 0;            // heading in degrees clockwise from north; NaN: unknown
+  std::int32_t completed = 0;  // number of the robot's actions that are completed
+  std::uint8_t state = 0;      // index in kDriveStates
 };
 
 struct ExecutionLog {

@@ -54,7 +54,7 @@ bool write_all(int fd, std::string_view content);
 enum class LockResult : std::uint8_t {
   kLocked,
   kHeld,         // another open file holds the lock, on this or another host
-  kUnsupported,  // the file system does not support locks; errno is set
+  kUnsupported,  // locking failed, usually because the file system has no locks; errno is set
 };
 
 // Locks the file, which must be open for writing, against all other callers of lock(), on all hosts

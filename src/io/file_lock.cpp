@@ -50,7 +50,8 @@ bool write_holder(const FileDescriptor& file) {
   return ::ftruncate(file.get(), 0) == 0 && write_all(file.get(), description_of_this_process());
 }
 
-// Returns the path of the lock file, for example ".grove-plan.json.lock" for "plan.json".
+// Returns the path of the lock file, for example ".grove-plan.json.lock" for "plan.json". A long
+// name is replaced by its hash.
 fs::path lock_file_of(const fs::path& output) {
   constexpr std::size_t kMaxNameLength = 200;  // file systems allow 255 bytes
   std::string name = output.filename().string();

@@ -13,8 +13,9 @@ namespace grove::detail {
 // it. The lock is effective on all hosts that share the file system. One thread at a time.
 class FileLock {
  public:
-  // Throws InputError if another process holds the lock (the message names the process), if the
-  // file cannot be written, or if it is a link, because a link could lead to any other file.
+  // Throws InputError if the lock is held already (the message names the process that holds it), if
+  // the file cannot be written, or if it is a link or not a regular file. (A link could lead to any
+  // other file.)
   explicit FileLock(const std::filesystem::path& path);
 
   // False if the file system does not support locks. In this case other processes are not excluded.
@@ -25,14 +26,15 @@ class FileLock {
   bool held_ = true;
 };
 
-// Prevents other runs from writing the file `output` while this object exists. Locks the file
-// .grove-NAME.lock in the same folder, and removes it in the destructor. (If a run is killed, its
-// lock file remains without a lock, and the next run reuses it.) Does not lock special files such
-// as /dev/null. Also does not lock a file in a folder that is not writable, because writing that
-// file will fail anyway. One thread at a time.
+// Prevents other runs from writing the file `output` while this object exists, if the file system
+// supports locks. Locks the file .grove-NAME.lock in the same folder, and removes it in the
+// destructor. (If a run is killed, its lock file remains without a lock, and the next run reuses
+// it.) Does not lock special files such as /dev/null. Also does not lock a file in a folder that is
+// not writable, because writing that file will fail anyway. One thread at a time.
 class OutputLock {
  public:
-  // Throws InputError if another run holds the lock; the message names that run.
+  // Throws InputError if another run holds the lock (the message names that run), or if the lock
+  // file is a link or not a regular file.
   explicit OutputLock(const std::filesystem::path& output);
   ~OutputLock();
   OutputLock(OutputLock&&) = default;

@@ -34,7 +34,8 @@ std::vector<TaskIndex> order_of_appearance(const Instance& instance) {
 }
 
 // Returns a builder with the map, rules and agents of `instance`, where agent i has the id
-// agent_id(i). A task execution in progress names its task t as task_id(t).
+// agent_id(i). A task execution in progress names its task t as task_id(t); it is omitted if this
+// is empty.
 template <typename AgentId, typename TaskId>
 InstanceBuilder with_agents(const Instance& instance, AgentId agent_id, TaskId task_id) {
   InstanceBuilder builder = InstanceBuilder::like(instance);

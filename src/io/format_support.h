@@ -51,6 +51,7 @@ void require_default_task_ids(const Instance& instance, std::string_view format)
 
 // Copies of `instance` without its tasks, or with default ids. without_tasks() throws InstanceError
 // (field "agents/<i>") if an agent has no destination, because it would have nothing left to do.
+// with_default_task_ids() also puts the tasks in the order of their default ids.
 Instance without_tasks(const Instance& instance);
 Instance with_default_task_ids(const Instance& instance);
 Instance with_default_agent_ids(const Instance& instance);

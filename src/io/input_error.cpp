@@ -14,8 +14,8 @@ bool continues(char c) {
   return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
 }
 
-// The length in bytes of the printable UTF-8 character at the beginning of `text`; 0 if there is
-// none.
+// The length in bytes of the first character of `text`, which must not be empty; 0 if the character
+// is not printable or not UTF-8.
 std::size_t printable_length(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text.front());
   if (lead < 0x80) return lead >= 0x20 && lead != 0x7F ? 1 : 0;

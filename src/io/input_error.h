@@ -11,9 +11,9 @@
 namespace grove::detail {
 
 // Thrown if a file cannot be read or written, is malformed, or contradicts another file. what() is
-// one line for the user: "FILE: PLACE: what is wrong and what was expected". PLACE is a line and
-// column ("line 7, column 12") or a JSON Pointer ("/agents/3/start"); it is omitted if the message
-// is about the whole file.
+// one line for the user: "FILE: PLACE: what is wrong and what was expected". PLACE is a line,
+// usually with a column ("line 7, column 12"), or a JSON Pointer ("/agents/3/start"); it is omitted
+// if the message is about the whole file.
 class InputError : public std::runtime_error {
  public:
   InputError(std::string_view file, std::string_view place, std::string_view message);

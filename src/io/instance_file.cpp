@@ -219,7 +219,7 @@ std::pair<ScenarioRow, Time> row_of(const Instance& instance, AgentIndex i,
           length};
 }
 
-// Returns the path entry of a start; a vertex is written as its id only.
+// Returns the path entry of a start, destination or task; a vertex is written as its id only.
 OrderedJson place_json(const Map& map, Motion motion, const Pose& pose) {
   OrderedJson json = pose_json(map, motion, pose);
   return json.size() == 1 ? OrderedJson(json[0]) : json;

@@ -40,9 +40,9 @@ LoadedInstance read_scenario_instance(const std::filesystem::path& scenario,
 
 // Writes a classical MAPF instance as a scenario with one row per agent, atomically. `map` is the
 // file name of the map in each row. The length column has the 4-connected distance (see
-// write_scenario()). Throws NotRepresentable if there are tasks, agents without a destination or
-// with an unreachable one, or ids that are not the default ids. Throws InputError if the file
-// cannot be written or `map` contains blanks.
+// write_scenario()). Throws NotRepresentable if the map is a roadmap, there are tasks, an agent's
+// turns take time, a destination is missing or unreachable, or the ids of agents are not the
+// default ids. Throws InputError if the file cannot be written or `map` contains blanks.
 void write_scenario_instance(const std::filesystem::path& path, const Instance& instance,
                              const std::string& map);
 

@@ -17,8 +17,8 @@
 
 namespace grove::detail {
 
-// A value in a JsonDocument, which must outlive the value. Every getter throws InputError if the
-// value does not have the requested type or range.
+// A value in a JsonDocument, which must outlive the value and must not be moved. Every getter
+// throws InputError if the value does not have the requested type or range.
 class JsonValue {
  public:
   JsonValue(const nlohmann::json& json, const std::string& file, std::string path)

@@ -241,8 +241,8 @@ void refuse_other_kind(const JsonValue& root, const KnownObject& known) {
     if (has_marks_of(root, *other)) throw WrongFileKind(root.file(), other->kind, known.kind);
 }
 
-// Rejects a file that has no key of its kind, nor a similar key. The message does not quote its
-// keys, because the user may have named this file by mistake.
+// Rejects a file that has keys, but none that is or resembles a key of its kind. The message does
+// not quote the keys, because the user may have named this file by mistake.
 void refuse_unrelated(const JsonValue& root, const KnownObject& known) {
   if (known.kind.empty()) return;
   bool has_others = false;

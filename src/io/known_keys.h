@@ -43,11 +43,11 @@ const KnownObject& new_task_keys();
 const KnownObject& solver_keys();
 
 // Checks the keys of `value` and of the objects in it. Throws WrongFileKind if the file lacks one
-// of its distinguishing keys but has those of another kind of file. Throws InputError, in a message
-// that does not quote the file, if the file has no key of its kind. Otherwise throws InputError for
-// the first unknown key; the message suggests a similar key, names the object to which the key
-// belongs, or states that Grove does not model the key. Ignores "$schema" and keys that begin with
-// '_', which are for people and other programs.
+// of its distinguishing keys but contains those of another kind of file. Throws InputError, with a
+// message that does not quote the file, if no key of the file is, or resembles, a key of its kind.
+// Otherwise throws InputError for the first unknown key; the message suggests a similar key, names
+// the object to which the key belongs, states that Grove does not model the key, or lists the known
+// keys. Ignores "$schema" and keys that begin with '_', which are for people and other programs.
 void require_known_keys(const JsonValue& value, const KnownObject& known);
 
 }  // namespace grove::detail

@@ -37,7 +37,8 @@ Instance read_libmrp_instance(const std::filesystem::path& path,
                               const InputRules& rules = {});
 
 // Writes a classical MAPF instance for libMultiRobotPlanning, atomically. Throws NotRepresentable
-// if there are tasks or agents without a destination, and InputError if the file cannot be written.
+// if the map is a roadmap, there are tasks, an agent has no destination, or its turns take time.
+// Throws InputError if the file cannot be written.
 void write_libmrp_instance(const std::filesystem::path& path, const Instance& instance);
 
 // Writes a classical MAPF instance for solvers that assign goals (CBS-TA, ITA-CBS), atomically.
@@ -45,9 +46,9 @@ void write_libmrp_instance(const std::filesystem::path& path, const Instance& in
 // write_libmrp_instance().
 void write_potential_goals(const std::filesystem::path& path, const Instance& instance);
 
-// Writes an MG-MAPF instance for MGCBS, atomically. Throws NotRepresentable if there are agents
-// with a destination or task ids that are not the default ids, and InputError if the file cannot be
-// written.
+// Writes an MG-MAPF instance for MGCBS, atomically. Throws NotRepresentable if the map is a
+// roadmap; an agent has a destination, no tasks, or turns that take time; or the tasks take time,
+// share a cell, or do not have the default ids. Throws InputError if the file cannot be written.
 void write_mgcbs_instance(const std::filesystem::path& path, const Instance& instance);
 
 }  // namespace grove::detail

@@ -153,8 +153,7 @@ class LifReader {
       elsewhere_.insert(nodes.element(k).member("nodeId").text());
   }
 
-  // The vehicle types that occur in nodes and edges. Nodes and edges without vehicle type
-  // properties are for all types.
+  // The vehicle types that occur in nodes and edges of the layout.
   std::set<std::string> vehicle_types(const JsonValue& layout) const {
     std::set<std::string> types;
     for (const auto& [list, key] : {std::pair{"nodes", "vehicleTypeNodeProperties"},
@@ -182,7 +181,8 @@ class LifReader {
                                               type, listed(types)));
   }
 
-  // Says whether the vehicle type may use a node or an edge, and has its properties there.
+  // Whether the vehicle type may use a node or an edge, and its properties there; nullopt: none are
+  // given. A type that the caller has named may use only the elements that list it.
   struct Use {
     bool may = true;
     std::optional<JsonValue> properties;
@@ -220,8 +220,8 @@ class LifReader {
     network_.vertices.push_back({std::move(id), at});
   }
 
-  // The vertex at an end of an edge. Returns nullopt if the node is in a different layout or is not
-  // for this vehicle type.
+  // The vertex at an end of an edge. Returns nullopt if the node is in a different layout, in which
+  // case it sets `is_elsewhere` to true, or if it is not for this vehicle type.
   std::optional<int> end_of(const JsonValue& edge, const char* key, bool& is_elsewhere) const {
     const JsonValue value = edge.member(key);
     const std::string id = value.text();

@@ -21,18 +21,18 @@
 
 namespace grove::detail {
 
-// The layout and the vehicle type to read. A name may be empty if the file has only one of the
-// kind.
+// The layout and the vehicle type to read. `layout` may be empty if the file has only one layout;
+// `vehicle_type`, if the layout has at most one vehicle type.
 struct LifChoice {
   std::string layout{};        // layoutId
   std::string vehicle_type{};  // vehicleTypeId; nodes and edges that it may not use are omitted
 };
 
 // Reads a file. Throws InputError, with the JSON Pointer, for invalid files. Invalid are repeated
-// or unknown ids, speeds that are not positive, and edges whose ends are at the same point. Also
-// throws InputError if the chosen layout or vehicle type does not exist, or is empty although the
-// file has several. Appends to `warnings`, unless it is nullptr, one line for each key that LIF
-// does not define, and one line if edges to other layouts were omitted.
+// or unknown ids, speeds that are not positive, and edges of length 0. Also throws InputError if
+// the chosen layout or vehicle type does not exist, or is empty although the file has several.
+// Appends to `warnings`, unless it is nullptr, one line for each key that LIF does not define, and
+// one line if edges from or to other layouts were omitted.
 RoadNetwork read_lif(const std::filesystem::path& path, const LifChoice& choice = {},
                      std::vector<std::string>* warnings = nullptr);
 // Parses the text of such a file. `name` is the name of the file in messages.

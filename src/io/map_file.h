@@ -17,8 +17,8 @@ inline constexpr int kMaxMapCells = 1 << 26;
 // Reads a .map file: four header lines (type octile, height, width, map; height and width in either
 // order), then `height` rows of `width` characters. Passable: . G S E. Blocked: @ O T W. CRLF line
 // ends are accepted, and the last line end may be missing. Throws InputError with line and column
-// for any other content. Appends a warning to `warnings`, unless it is nullptr, if there are
-// characters other than . @ T.
+// for any other content, except for empty lines at the end. Appends one warning to `warnings`,
+// unless it is nullptr, if there are valid characters other than . @ T.
 Grid read_map(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr,
               const InputRules& rules = {});
 

@@ -25,8 +25,9 @@ Instance read_mapfw_problem(const std::filesystem::path& path,
                             std::vector<std::string>* warnings = nullptr);
 
 // Writes a problem, atomically. Each task becomes a waypoint of each of its agents. Throws
-// NotRepresentable if there are agents without a destination or ids that are not the default ids,
-// and InputError if the file cannot be written.
+// NotRepresentable if the map is a roadmap; an agent has no destination, or turns that take time;
+// the tasks take time or share a cell; or ids are not the default ids. Throws InputError if the
+// file cannot be written.
 void write_mapfw_problem(const std::filesystem::path& path, const Instance& instance);
 
 }  // namespace grove::detail

@@ -12,8 +12,9 @@
 
 namespace grove::detail {
 
-// The read functions throw InputError at `value` if it is not an entry of the required form for
-// this map and motion. They accept blocked cells.
+// The read functions throw InputError, at `value` or an element of it, if it is not an entry of the
+// required form for this map and motion, or if its place is not on the map. They accept blocked
+// cells.
 Pose read_pose(const Map& map, Motion motion, const JsonValue& value);
 Heading read_heading(const JsonValue& value);
 

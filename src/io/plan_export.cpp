@@ -17,7 +17,7 @@
 namespace grove::detail {
 namespace {
 
-// Returns the line " key: value" with counter `name`; "" if the run does not have this counter.
+// Returns a line with `key` and the value of the counter `name`; "" if there is no such counter.
 std::string count_line(const Stats& stats, const std::string& name, std::string_view key) {
   const auto it = stats.counts.find(name);
   return it == stats.counts.end() ? "" : fmt::format("  {}: {}\n", key, it->second);
@@ -71,8 +71,8 @@ void write_libmrp_schedule(const std::filesystem::path& path, const Instance& in
 
 namespace {
 
-// Appends a position. The comma is required, because mapf-visualizer only finds positions that are
-// followed by one.
+// Appends a position. The comma is required, because mapf-visualizer finds only positions that a
+// comma follows.
 void add_position(std::string& text, const Grid& grid, Cell cell) {
   const Position p = grid.position(cell);
   fmt::format_to(std::back_inserter(text), "({},{}),", p.x, p.y);

@@ -2,6 +2,8 @@
 // Writes plans in the file formats of other tools. Each function writes its file atomically, with
 // the agents in the order of the instance, and throws InputError if the file cannot be written.
 // Precondition: `solution` has a plan of `instance` that is valid by check().
+// write_libmrp_schedule(), write_visualizer_text() and write_path_lists() throw NotRepresentable if
+// the map is a roadmap, turns of an agent take time, or tasks take time.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +18,7 @@ namespace grove::detail {
 // Writes a schedule of libMultiRobotPlanning (YAML): x, y and t for every time step until the agent
 // rests, where x is the column and y is the row. Agents are named by their ids, because the viewer
 // looks up an agent of the instance by its name. Statistics that `solution` does not contain are
-// omitted. Throws NotRepresentable if an id is too long for a YAML key.
+// omitted. Also throws NotRepresentable if an id is too long for a YAML key.
 void write_libmrp_schedule(const std::filesystem::path& path, const Instance& instance,
                            const Solution& solution);
 
@@ -36,10 +38,10 @@ void write_path_lists(const std::filesystem::path& path, const Instance& instanc
 
 // Writes the 2024 format of PlanViz, the viewer of the League of Robot Runners
 // (https://github.com/MAPF-Competition/PlanViz). Paths are sequences of actions: U, D, L, R, where
-// U is one row down; or F, R, C for robots that turn; and W for a wait. Each agent has one task
-// with several errands, which are its tasks in the order of its visits and then its destination.
-// Throws NotRepresentable if the map is a roadmap, if a turn takes more than one step, or if only
-// some robots turn.
+// U is one row down; or F, R, C for robots that turn; and W for a wait. Each agent has one task in
+// the file, whose errands are the agent's tasks in the order of its visits and then its
+// destination; an agent without errands has no task. Throws NotRepresentable if the map is a
+// roadmap, if a turn takes more than one step, or if only some robots turn.
 void write_planviz(const std::filesystem::path& path, const Instance& instance,
                    const Solution& solution);
 
@@ -53,8 +55,8 @@ struct Scale {
 // counterclockwise from x) and task. There is a row for each arrival at a place, for each step of a
 // turn, and for the start and end of each wait and of each task execution. Between rows robots move
 // at constant speed. theta is the heading; for robots that turn freely it is the direction of the
-// next move, and after the last move the direction of that move. task is the id of the task that
-// the robot visits or executes at that time.
+// next move, and after the last move the direction of that move (0 if the robot never moves). task
+// is the id of a task that the robot visits or executes at that time.
 void write_waypoints(const std::filesystem::path& path, const Instance& instance,
                      const Solution& solution, const Scale& scale);
 

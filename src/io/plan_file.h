@@ -23,8 +23,8 @@ void write_solution(const std::filesystem::path& path, const Instance& instance,
 
 // Reads a plan file for `instance`. Does not verify the plan and its claims; check() does. The
 // agents of the result are ordered by AgentIndex, whatever their order in the file; an agent that
-// is missing in the file has an empty path. Throws InputError for invalid files, for unknown keys,
-// and for unknown or repeated ids.
+// is missing in the file has an empty path. Throws InputError for invalid files, for unknown keys
+// and ids, and if an agent appears twice.
 Solution read_solution(const std::filesystem::path& path, const Instance& instance);
 // Parses the text of such a file. `name` is the name of the file in messages.
 Solution parse_solution(std::string_view text, const std::string& name, const Instance& instance);

@@ -23,8 +23,8 @@ namespace {
 
 using Paths = std::vector<Path>;  // by AgentIndex
 
-// Reads a line from left to right. The functions take_...() throw InputError with the position if
-// the expected item is missing.
+// Reads a line from left to right. Except for take_if(), the functions take_...() throw InputError
+// with the position if the expected item is missing.
 class LineReader {
  public:
   LineReader(const std::filesystem::path& path, std::size_t number, std::string_view line)
@@ -237,7 +237,7 @@ void recompute_costs(Plan& plan) {
   }
 }
 
-// Removes all claims except the costs of the plan.
+// Replaces the claimed omega, lower bound and status by those of a plan without a bound.
 void forget_claims(Solution& solution) {
   solution.omega = Omega::infinite();
   solution.lower_bound = 0;

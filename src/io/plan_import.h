@@ -12,8 +12,8 @@
 namespace grove::detail {
 
 // A plan of any tool, as a Solution. Claims that the file does not contain are computed from the
-// paths (costs, order of tasks) or set to the weakest value (lower bound 0, omega inf). They are
-// listed in `unclaimed`, because check() cannot refute them.
+// paths (costs, order of tasks) or set to the weakest value (lower bound 0, omega inf). Except for
+// omega, they are listed in `unclaimed`, because check() cannot refute them.
 struct ClaimedPlan {
   Solution solution;
   std::vector<std::string> unclaimed;  // subset of "cost", "lower bound", "order of tasks"
@@ -36,7 +36,8 @@ Plan plan_of_paths(const Instance& instance, std::vector<Path> paths);
 //   lower bound, if they are present. There is no plan if the file contains "solved=0" or ends
 //   before the solution;
 // - the YAML of libMultiRobotPlanning, MGCBS and ITA-CBS: below "schedule:", a list of x, y, t for
-//   each agent, under its id or its number ("agent7"). The claim is "cost" in "statistics".
+//   each agent, under its id or its number ("agent7"). The claim is "cost" in "statistics", if it
+//   is present. There is no plan if "schedule:" has no value.
 //
 // The agents of the result are those of `instance`, in its order. An agent that is missing in the
 // file has an empty path. Throws InputError for any other content, and if a path leaves the map.

@@ -17,16 +17,17 @@ inline std::span<const Cell> until_rest(const Path& path) {
   return {path.data(), size};
 }
 
-// The earliest time at which all agents rest forever.
+// The earliest time from which no agent moves or turns. (A task execution after an agent's last
+// move does not count.)
 inline Time makespan(const Plan& plan) {
   std::size_t last = 0;
   for (const AgentPlan& agent : plan.agents) last = std::max(last, until_rest(agent.path).size());
   return last == 0 ? 0 : static_cast<Time>(last - 1);
 }
 
-// By position in the agent's sequence: the earliest time at which the agent can be said to visit
-// the task or to complete its execution, if it visits the tasks in this order. Precondition: the
-// plan is valid.
+// By position in the agent's sequence: the time at which the agent visits the task or completes its
+// execution, if it visits its tasks in the order of the sequence, each as early as possible.
+// Precondition: the plan is valid.
 inline std::vector<Time> visit_times(const Instance& instance, const AgentPlan& plan) {
   std::vector<Time> times;
   Time time = 0;

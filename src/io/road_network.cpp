@@ -62,7 +62,8 @@ void require_room(const RoadNetwork& network, const Link& link, std::int64_t pla
 }
 
 // Returns the one-way roads, grouped by their unordered pair of ends. Within a group the roads in
-// one direction come before those in the other direction, and each of these are sorted by steps.
+// one direction come before those in the other direction, and the roads in each direction are
+// sorted by steps.
 std::vector<int> by_ends(const std::vector<Road>& roads) {
   std::vector<int> order;
   for (std::size_t r = 0; r < roads.size(); ++r)
@@ -75,8 +76,8 @@ std::vector<int> by_ends(const std::vector<Road>& roads) {
   return order;
 }
 
-// Calls visit(there, back) for each unordered pair of vertices, with the one-way roads in one
-// direction and those in the opposite direction, each sorted by steps.
+// Calls visit(there, back) for each unordered pair of vertices that one-way roads join, with the
+// one-way roads in one direction and those in the opposite direction, each sorted by steps.
 template <typename Visit>
 void for_each_pair_of_ends(const std::vector<Road>& roads, Visit visit) {
   const std::vector<int> order = by_ends(roads);

@@ -21,8 +21,8 @@ struct Link {
   std::string place;              // position in the file, such as "line 7, column 3" or "/edges/2"
 };
 
-// The roads in a file of another tool. The ids of the vertices are distinct and not empty. The ends
-// of each link are different vertices.
+// The roads in a file of another tool. The ids of the vertices are distinct and not empty. The two
+// ends of a link can be the same vertex; in_steps() rejects such a link.
 struct RoadNetwork {
   std::string file;  // for messages
   std::vector<Vertex> vertices;
@@ -58,8 +58,8 @@ struct SteppedRoads {
 // and seconds / seconds_per_step, where a quotient is omitted if `scale` or the link lacks a value
 // for it. The result is rounded up and is at least 1. A quotient that differs from an integer only
 // by the rounding errors of floating-point arithmetic counts as this integer. Throws InputError,
-// with the position of the link, if no quotient remains for a link. Throws InputError if the roads
-// have more places than a Roadmap or `rules` allow.
+// with the position of the link, if no quotient remains for a link, if both of its ends are the
+// same vertex, or if the roads up to this one have more places than a Roadmap or `rules` allow.
 SteppedRoads in_steps(const RoadNetwork& network, const StepScale& scale,
                       const InputRules& rules = {});
 

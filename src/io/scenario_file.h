@@ -28,7 +28,8 @@ struct ScenarioRow {
 std::vector<ScenarioRow> read_scenario(const std::filesystem::path& path);
 
 // Returns the path of the map that the first row names, in the folder of `scenario`. Returns an
-// empty path if there is no such file.
+// empty path if there is no row or no such file. Throws InputError if the scenario is invalid or
+// `rules` forbid the map.
 std::filesystem::path map_beside(const std::filesystem::path& scenario,
                                  const InputRules& rules = {});
 

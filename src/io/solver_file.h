@@ -22,8 +22,8 @@ enum class SolverInput : std::uint8_t {
   kMgcbs,           // {instance}, YAML with lists of goals: MG-MAPF
 };
 
-// Only this number of characters of a line is searched for a pattern, because longer lines are
-// paths and no results, and libstdc++ matches regular expressions by recursion.
+// Only the first kMaxLineLength characters of a line are searched for a pattern, because longer
+// lines contain paths rather than results, and libstdc++ matches regular expressions by recursion.
 inline constexpr std::size_t kMaxLineLength = 4096;
 
 // A pattern for a line with a result. The last line in which the regular expression is found
@@ -47,7 +47,7 @@ enum class TraceGroup : std::uint8_t {
 // counts.
 struct TracePattern {
   LinePattern line;
-  std::vector<TraceGroup> groups;  // by group, from group 1; one is a time and one is kCost
+  std::vector<TraceGroup> groups;  // by group, from group 1; exactly one time, one kCost
 };
 
 struct SolverAdapter {
@@ -73,7 +73,8 @@ struct SolverAdapter {
 SolverAdapter read_solver(const std::filesystem::path& path);
 SolverAdapter parse_solver(std::string_view text, const std::string& name);
 
-// Returns an error message if `command` lacks a placeholder that `input` requires; otherwise "".
+// Returns an error message if `command` lacks a placeholder that `input` requires, or contains
+// those of two formats; otherwise "".
 std::string input_mistake(SolverInput input, const std::vector<std::string>& command);
 // True if a template in `command` contains the placeholder {name}.
 bool names(const std::vector<std::string>& command, std::string_view name);

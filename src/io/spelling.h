@@ -15,7 +15,7 @@ std::size_t edit_distance(std::string_view from, std::string_view to);
 
 // Returns the nearest of the words in `known` that are within two edits, and within one edit for
 // each three letters of the shorter word; the first of several nearest words. Returns nullopt if
-// there is no such word.
+// there is no such word, or if `word` is very long.
 std::optional<std::string_view> nearest_word(std::string_view word,
                                              const std::vector<std::string_view>& known);
 

@@ -15,7 +15,7 @@ namespace grove::detail {
 // (model/motion_world.cpp). For each distinct turn_steps, each place has a state for each heading
 // and for each step within a turn. Each task that takes time has a chain of states for each base
 // state in which it can be executed: one for agents that turn freely, one for each heading and each
-// distinct turn_steps, and one for an agent that starts at work within a turn.
+// distinct turn_steps, and one for an agent that starts on the task's place within a turn.
 class StateMemory {
  public:
   explicit StateMemory(const InstanceBuilder& builder)

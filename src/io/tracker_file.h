@@ -32,8 +32,8 @@ enum class TrackerLayout : std::uint8_t { kJson, kCsv };
 // field flip_up_down is true.
 enum class TrackerUp : std::uint8_t { kTowardsRowZero, kAwayFromRowZero };
 
-// Throws NotRepresentable if there are tasks or agents without a destination, because the tracker's
-// instances are classical MAPF.
+// Throws NotRepresentable if the map is a roadmap, there are tasks, an agent has no destination, or
+// its turns take time, because the tracker's instances are classical MAPF.
 void require_tracker_instance(const Instance& instance);
 
 // Writes `solution` as one row, atomically. Precondition: `solution` has a plan of `instance` that

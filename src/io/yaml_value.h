@@ -19,8 +19,8 @@
 
 namespace grove::detail {
 
-// A value in a YamlDocument, which must outlive the value. Every getter throws InputError if the
-// value does not have the requested type or range.
+// A value in a YamlDocument, which must outlive the value and must not be moved. Every getter
+// throws InputError if the value does not have the requested type or range.
 class YamlValue {
  public:
   YamlValue(YAML::Node node, const std::string& file) : node_(std::move(node)), file_(&file) {}
@@ -53,7 +53,8 @@ class YamlValue {
 };
 
 // A parsed YAML file. The constructor throws InputError if the file cannot be read, is not exactly
-// one YAML document that is a map, or needs more memory than `rules` permits.
+// one YAML document that is a map, is larger than 32 MiB, or needs more memory than `rules`
+// permits.
 class YamlDocument {
  public:
   explicit YamlDocument(const std::filesystem::path& path, const InputRules& rules = {});

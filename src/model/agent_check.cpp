@@ -16,8 +16,9 @@ bool are_neighbors(const Grid& grid, Cell from, Cell to) {
   return std::abs(a.x - b.x) + std::abs(a.y - b.y) <= 1;
 }
 
-// True if the step from `from` to `to`, two poses on one place, is a step of a quarter turn. A
-// quarter turn leads from a heading to an adjacent one, through all poses within the turn.
+// True if the step from `from` to `to` is a step of a quarter turn. A quarter turn leads from a
+// heading to an adjacent one, through all poses within the turn. Precondition: both poses are on
+// the same place.
 bool is_step_of_turn(Motion motion, const Pose& from, const Pose& to) {
   const bool ends = from.steps + 1 == motion.turn_steps || motion.turn_steps == 1;
   if (ends && to.steps != 0) return false;
@@ -104,7 +105,7 @@ void AllowedSteps::add_roads(const Roadmap& roadmap) {
 
 namespace {
 
-// Checks one agent's plan against its start, goal and tasks.
+// Checks one agent's plan. Implements check_agent().
 class AgentCheck {
  public:
   AgentCheck(const Instance& instance, const AllowedSteps& steps, AgentIndex index,
@@ -116,7 +117,6 @@ class AgentCheck {
         report_(report),
         place_(fmt::format("/agents/{}", index)) {}
 
-  // Implements check_agent().
   std::optional<Time> run() {
     if (plan_.path.empty()) {
       report_.add(place_, "agent '{}' has no path; expected one for every agent", agent_.id);
@@ -315,8 +315,9 @@ class AgentCheck {
                   agent_.id, steps_.name(poses_.back().place), last.id);
   }
 
-  // The finish time, from which the state never changes and no task is left. Tasks without duration
-  // are visited by then, because the agent enters no place later.
+  // The finish time: the earliest time from which the pose never changes and no task is executed.
+  // If the path visits a task without duration, it does so by then, because the agent enters no
+  // place later.
   Time finishes() const {
     Time time = static_cast<Time>(poses_.size()) - 1;
     while (time > 0 && at(time - 1) == poses_.back()) --time;

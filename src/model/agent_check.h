@@ -58,9 +58,9 @@ class AllowedSteps {
   std::set<std::pair<Place, Place>> on_roads_;
 };
 
-// Checks the plan of agent `index` against its start, goal, heading, work and tasks, and adds each
-// error to `report`. Returns the agent's finish time. Returns nullopt if the path is empty or
-// leaves the map.
+// Checks the plan of agent `index` by itself, and adds its errors to `report`. Returns the agent's
+// finish time. If the path is empty or contains a state that is not a base state of the agent's
+// kind, adds only this error and returns nullopt. Precondition: the tasks in `plan.work` exist.
 std::optional<Time> check_agent(const Instance& instance, const AllowedSteps& steps,
                                 AgentIndex index, const AgentPlan& plan, ViolationReport& report);
 

@@ -7,8 +7,8 @@
 
 namespace grove::detail {
 
-// Thrown by a failed assertion, which indicates an error in the code. Programs then end with exit
-// code 1.
+// Thrown by a failed assertion or audit (search/audit.h), which indicates an error in the code.
+// Programs then end with exit code 1.
 struct AssertionFailed : std::logic_error {
   using std::logic_error::logic_error;
 };

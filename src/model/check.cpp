@@ -2,12 +2,13 @@
 // A second, independent implementation of the definition of a valid plan (docs/design.md, section
 // 1). The code is direct rather than clever, so that it can be compared with that section line by
 // line. It checks, in this order:
-// - Each agent by itself (agent_check.cpp): start, places, steps, task executions, end, visits,
-//   cost.
+// - Each agent by itself (agent_check.cpp): places, start, steps, task executions, end, visits,
+//   sequence, cost.
 // - Collisions: all agents advance step by step, on a table with the agent on each place. The
 //   effort is O(agents * time), instead of O(agents^2 * time) for comparing all pairs of paths.
-// - Claims: the plan's cost is the sum of the agents' finish times, and its status follows from
-//   cost, lower bound and omega.
+// - Claims: the plan's cost is the sum of the agents' finish times, the lower bound is from 0 to
+//   this sum, and the status follows from cost, lower bound and omega.
+// Collisions and claims are not checked if check_agent() returns nullopt for an agent.
 #include "model/check.h"
 
 #include <fmt/format.h>
@@ -22,8 +23,8 @@
 namespace grove::detail {
 namespace {
 
-// Checks for collisions by advancing all agents step by step. Precondition: no path is empty or
-// leaves the map.
+// Checks for collisions by advancing all agents step by step. Precondition: check_agent() returned
+// a finish time for every agent.
 class CollisionCheck {
  public:
   CollisionCheck(const Instance& instance, const AllowedSteps& steps, const Plan& plan,
@@ -96,9 +97,10 @@ class CollisionCheck {
                        std::min(t, plan_.agents[agent].path.size() - 1));
   }
 
-  // True if no collision of this type was reported for the pair yet. Only the first one is
-  // reported, because agents that collide often do so in many steps.
   using Pairs = std::set<std::pair<AgentIndex, AgentIndex>>;
+  // Adds the pair to `pairs`, which contains the pairs with a collision of one type. Returns true
+  // if it is new. Only the first collision of a type is reported for a pair, because agents that
+  // collide often do so in many steps.
   static bool is_new(Pairs& pairs, AgentIndex a, AgentIndex b) {
     return pairs.insert(std::minmax(a, b)).second;
   }
@@ -115,8 +117,8 @@ class CollisionCheck {
   Pairs following_pairs_;
 };
 
-// Checks each agent by itself. Returns the sum of the finish times. Returns nullopt if a path is
-// empty or leaves the map.
+// Checks each agent by itself. Returns the sum of the finish times. Returns nullopt if
+// check_agent() returns nullopt for an agent.
 std::optional<Cost> check_agents(const Instance& instance, const AllowedSteps& steps,
                                  const Plan& plan, ViolationReport& report) {
   std::optional<Cost> total = 0;

@@ -15,8 +15,8 @@
 
 namespace grove::detail {
 
-// An error in a plan. `json_pointer` is its position in the plan file, a JSON Pointer (RFC 6901)
-// such as "/agents/2/path/17".
+// An error in a plan. `json_pointer` is its position, as a JSON Pointer (RFC 6901) such as
+// "/agents/2/path/17", in a plan file that lists the agents in the order of the instance.
 struct Violation {
   std::string json_pointer;
   std::string message;
@@ -41,8 +41,8 @@ class InvalidPlan : public std::logic_error {
   Violation violation_;
 };
 
-// Throws InvalidPlan with the first violation that check() finds. Accepts a solution without a
-// plan, because such a solution does not claim one.
+// Throws InvalidPlan with the first violation that check() finds. Accepts every solution without a
+// plan.
 void require_valid_plan(const Instance& instance, const Solution& solution);
 
 }  // namespace grove::detail

@@ -37,8 +37,8 @@ class Targets {
 
   std::vector<std::vector<State>> sets;
   std::vector<Place> places;  // by set: the place, if it contains all of its states; else kNoPlace
-  // Indices in `sets`. kNone: the agent rests on its last stop, or no agent of this kind has this
-  // port.
+  // Indices in `sets`. kNone: the agent rests on its last stop, or no agent of this kind has the
+  // task of this port as a stop.
   static constexpr int kNone = -1;
   std::vector<int> of_tasks;
   std::vector<int> of_agents;
@@ -108,8 +108,8 @@ class Walker {
     return distances;
   }
 
-  // Returns nullopt if distances exceed 16 bits and `limits` does not allow the memory for 32-bit
-  // distances.
+  // Returns nullopt if the distances do not fit in 16 bits and `limits` does not allow the memory
+  // for 32-bit distances.
   std::optional<CompactDistanceField> field(std::span<const State> targets, const Limits& limits) {
     std::vector<std::uint16_t> distances(queue_.size(), DistanceView::kShortNever);
     if (walk(targets, DistanceView::kShortNever, distances.data()))
@@ -118,15 +118,15 @@ class Walker {
     return CompactDistanceField(walk(targets));
   }
 
-  // Writes the field to `distances`. Returns false if a distance exceeds 16 bits.
+  // Writes the field to `distances`. Returns false if the distances do not fit in 16 bits.
   bool fill(std::span<const State> targets, std::uint16_t* distances) {
     std::fill_n(distances, queue_.size(), DistanceView::kShortNever);
     return walk(targets, DistanceView::kShortNever, distances);
   }
 
  private:
-  // Precondition: all `distances` are equal to `never`. Returns false if a distance would reach
-  // `never`.
+  // Precondition: all `distances` are equal to `never`. Returns false if a state has the distance
+  // `never` - 1, so that its predecessors could not be distinguished from unreachable states.
   template <class Steps>
   bool walk(std::span<const State> targets, Steps never, Steps* distances) {
     std::size_t end = 0;

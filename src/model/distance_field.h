@@ -32,7 +32,7 @@ DistanceField distance_field(const World& world, Place target);
 class DistanceView {
  public:
   DistanceView() = default;  // views no field
-  // `field` must outlive this view and must not move.
+  // `field` must outlive this view and must not be resized.
   explicit DistanceView(const DistanceField& field) : long_(field.data()) {}
 
   Time operator[](State state) const {
@@ -55,8 +55,8 @@ class DistanceView {
   const Time* long_ = nullptr;
 };
 
-// A distance field that takes half the memory of a DistanceField if no distance exceeds 65,534
-// steps.
+// A distance field with 16-bit distances, which take half the memory of a DistanceField, or with
+// the distances of a DistanceField.
 class CompactDistanceField {
  public:
   CompactDistanceField() = default;
@@ -78,16 +78,18 @@ class CompactDistanceField {
   DistanceField long_;
 };
 
-// The distance fields of an instance: one for each task, and one for the states in which each agent
-// may rest. Targets that consist of all states on one place share a field. Immutable: any thread
-// may read it.
+// The distance fields of an instance: for each task, for the states in which each agent may rest
+// (unless it rests on its last stop) and, if has_ports(), for each port of a stop. Targets that
+// consist of all states on one place share a field, and so do all idle agents. Immutable: any
+// thread may read it.
 class DistanceFields {
  public:
   // Computes the fields on `threads` threads, or on one thread if the effort is small. Checks the
-  // memory limit first, and polls `limits` before each field. If a limit is reached, complete() is
-  // false.
+  // memory limit first, and polls `limits` before each field. If a limit is reached before all
+  // fields are computed, complete() is false. Calls limits.memory_exhausted() if the fields need
+  // too much memory.
   // `known`: fields of an earlier instance, or nullptr. If both instances share the map object and
-  // every state is equal to its place, fields of common targets are reused.
+  // every state is equal to its place, fields of common target places are reused.
   // `arrays`: shared arrays with layout_of(instance), or nullptr. They must outlive this object.
   // With `arrays` the fields are stored there, and each process computes a part of them. This
   // process computes in its own memory each field that no process has completed.
@@ -97,8 +99,8 @@ class DistanceFields {
 
   // The size in bytes of each shared array (ArrayKind::kDistances) for the fields of `instance`.
   static std::vector<std::size_t> layout_of(const Instance& instance);
-  // A shared array for data that is derived from these fields. The result is empty if this object
-  // does not use shared arrays.
+  // A shared array for data that is derived from these fields. The result refers to no array if
+  // this object does not use shared arrays or their layout does not contain it.
   SharedArray array(ArrayKind kind, std::size_t number) const {
     return arrays_ ? arrays_->array(kind, number) : SharedArray();
   }
@@ -111,10 +113,10 @@ class DistanceFields {
   DistanceView to_task(TaskIndex task) const { return by_task_[task]; }
   // The number of ports of a task, one for each heading.
   static constexpr int kPorts = 4;
-  // True on worlds of moderate size in which agents turn.
+  // True on worlds of moderate size with tasks and with agents whose turns take time.
   bool has_ports() const { return !by_port_.empty(); }
   // Distances to one port of the task: the states in which an agent of kind `kind` visits it with
-  // heading `port`. Precondition: has_ports().
+  // heading `port`. Preconditions: has_ports(), and the task is a stop of an agent of this kind.
   DistanceView to_port(TaskIndex task, int kind, int port) const {
     return by_port_[(static_cast<std::size_t>(task) * kinds_ + kind) * kPorts + port];
   }
@@ -132,7 +134,7 @@ class DistanceFields {
 
   const SharedArrays* arrays_ = nullptr;  // nullptr: no shared arrays are used
   std::shared_ptr<const Map> map_;        // nullptr unless every state is equal to its place
-  std::map<Place, FieldPtr> to_place_;    // by target: fields of map_
+  std::map<Place, FieldPtr> to_place_;    // by target place: fields that depend only on map_
   std::vector<FieldPtr> fields_;
   std::vector<DistanceView> by_task_;
   std::vector<DistanceView> by_agent_;

@@ -2,9 +2,9 @@
 // The hash is FNV-1a (Fowler, Noll, Vo) over a sequence of 64-bit numbers, least significant byte
 // first.
 //
-// For a given type of map, the sequence of numbers determines the instance: each list follows its
-// length, and kOptional, which differs from all places and lengths, precedes data that only some
-// tasks and agents have.
+// For a given type of map, the sequence of numbers determines everything that the fingerprint
+// covers: each list follows its length, and kOptional, which differs from all places and lengths,
+// precedes data that only some tasks and agents have.
 #include "model/fingerprint.h"
 
 namespace grove::detail {

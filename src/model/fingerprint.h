@@ -9,10 +9,10 @@
 namespace grove::detail {
 
 // The fingerprint covers the map, the starts, motions and destinations of the agents, the tasks,
-// the order of both, and whether following is allowed. It does not cover ids, coordinates or file
-// names. It is the same on every machine and in every version. Different instances have equal
-// fingerprints with a probability of about 2^-64. The hash is FNV-1a, which does not resist
-// deliberate collisions.
+// the order of agents and of tasks, and whether following is allowed. It does not cover ids,
+// coordinates or file names. It is the same on every machine and in every version. Different
+// instances have equal fingerprints with a probability of about 2^-64. The hash is FNV-1a, which
+// does not resist deliberate collisions.
 std::uint64_t fingerprint(const Instance& instance);
 
 }  // namespace grove::detail

@@ -252,8 +252,8 @@ void InstanceBuilder::require_work(AgentIndex agent, const WorkBegun& begun) con
                      begun.done, begun.task, task.duration - 1));
 }
 
-// An agent may work in any heading. States of work within a turn are needed only for the turn in
-// which the agent starts, because the agent can work before any other turn.
+// An agent may work in any heading. Within a turn, states of work are needed only for the pose in
+// which the agent starts, because the agent can work in this pose, or before any other turn.
 std::vector<MotionWorld::Job> InstanceBuilder::jobs() const {
   std::vector<MotionWorld::Job> jobs;
   const auto state_of = [&](int kind, const Pose& pose) {

@@ -55,7 +55,7 @@ struct WorkBegun {
 };
 
 // Description of an agent for InstanceBuilder::add_agent(). If the agent turns freely, only the
-// place of `start` is used.
+// place of `start` is used. `goal_heading` requires `goal` and an agent whose turns take time.
 struct AgentSpec {
   std::string id;
   Pose start;
@@ -66,8 +66,8 @@ struct AgentSpec {
 };
 
 // Thrown for an instance that violates a rule of docs/design.md, section 1. field() names the
-// invalid part of the agent or task that is being added, for example "start", "cell" or "agents/2".
-// what() describes the error.
+// invalid part of the agent or task that is being added, for example "start", "cell" or "agents/2",
+// or of the instance that is being built. what() describes the error.
 class InstanceError : public std::invalid_argument {
  public:
   InstanceError(std::string field, const std::string& message)
@@ -136,9 +136,8 @@ class Instance {
   // which may_rest() is true; empty for an idle agent, which may rest in any state.
   std::vector<State> states_visiting(TaskIndex task) const;
   std::vector<State> states_to_rest(AgentIndex agent) const;
-  // True if the agent rests on the last stop of its sequence. This holds for an agent without a
-  // destination that has tasks, none of which takes time, because it can visit such a task once
-  // more at the end.
+  // True if the agent rests on the last stop of its sequence: if it has tasks but no destination,
+  // and none of its tasks takes time, so that it can visit a task once more at the end.
   bool rests_on_last_stop(AgentIndex agent) const;
   // All tasks of the agent, in the order in which it visits them if it visits its stops in the
   // order `stops` (positions in Agent::stops).
@@ -158,7 +157,8 @@ class Instance {
 };
 
 // Builds an Instance: add all agents, then all tasks, then call build(). Each rule is checked as
-// soon as it can be. Instances are created in no other way. One thread at a time.
+// soon as it can be. Except for copies, instances are created in no other way. One thread at a
+// time.
 class InstanceBuilder {
  public:
   explicit InstanceBuilder(Map map);
@@ -174,7 +174,7 @@ class InstanceBuilder {
   // goal that is outside the grid or blocked, or that another agent has as its start or goal,
   // respectively.
   AgentIndex add_agent(std::string id, Position start, std::optional<Position> goal);
-  // Adds an agent on any map.
+  // Adds an agent on any map, with the same checks. Precondition on a roadmap: the places exist.
   AgentIndex add_agent(std::string id, Place start, std::optional<Place> goal);
   AgentIndex add_agent(AgentSpec spec);
 
@@ -183,7 +183,7 @@ class InstanceBuilder {
   // that already has kMaxTasksPerAgent tasks; a duration that is not in 0, ..., kMaxDuration.
   TaskIndex add_task(std::string id, Position cell, std::span<const std::string> agent_ids,
                      Time duration = 0);
-  // Adds a task on any map.
+  // Adds a task on any map, with the same checks. Precondition on a roadmap: the place exists.
   TaskIndex add_task(std::string id, Place place, std::span<const std::string> agent_ids,
                      Time duration = 0);
 
@@ -191,8 +191,9 @@ class InstanceBuilder {
   static constexpr Time kMaxDuration = 1 << 16;
 
   // Returns the instance. Throws InstanceError with field "agents" if there are no agents;
-  // "agents/<i>/working/..." if an agent is at work on a task that is not its own, that is not on
-  // its start, or that is already complete; "map" or "roadmap" if there are too many states.
+  // "agents/<i>/working/..." if an agent is at work on a task that does not exist, is not its own,
+  // is not on its start, takes no time, or is already complete; "map" or "roadmap" if there are too
+  // many states, or agents whose turns take time on a roadmap.
   Instance build() &&;
 
  private:

@@ -46,17 +46,17 @@ void set_shared_memory_accounting(int processes, std::size_t bytes);
 
 // Limits on a run. There is one object per run, which is passed by reference. The setters
 // (set_clock(), set_deadline(), set_memory_limit(), watch_interrupt()) must be called before other
-// threads use the object. All other methods are thread-safe. Once a limit is reached, the object
-// remains stopped, and reason() is the first reason.
+// threads use the object. All other methods are thread-safe. Once stop_requested() has found that a
+// limit is reached, the object remains stopped, and reason() is the first reason.
 class Limits {
  public:
   using Clock = std::chrono::steady_clock;
 
   // No limits.
   Limits() = default;
-  // Limits on a part of a run. They are reached `seconds` seconds from now, or when a limit of
-  // `whole` is reached; whole.cancel_workers() does not affect them. `whole` must outlive this
-  // object. It provides the clock and the memory limit.
+  // Limits on a part of a run. They are reached `seconds` seconds from now (never, if that is too
+  // long for the clock), or when a limit of `whole` is reached; whole.cancel_workers() does not
+  // affect them. `whole` must outlive this object. It provides the clock and the memory limit.
   Limits(const Limits& whole, double seconds);
 
   // Replaces the system clock by `clock`, which must be thread-safe.

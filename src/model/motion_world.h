@@ -19,8 +19,8 @@ namespace grove::detail {
 enum class Heading : std::uint8_t { kNorth, kEast, kSouth, kWest };
 inline constexpr std::array<Heading, 4> kHeadings{Heading::kNorth, Heading::kEast, Heading::kSouth,
                                                   Heading::kWest};
-// letter() returns 'N', 'E', 'S' or 'W'. heading_of() is its inverse. Returns nullopt if `text` is
-// not one of these letters.
+// letter() returns 'N', 'E', 'S' or 'W'. heading_of() is its inverse; it returns nullopt if `text`
+// is not one of these letters.
 char letter(Heading heading);
 std::optional<Heading> heading_of(std::string_view text);
 // The adjacent headings: clockwise, and counterclockwise.
@@ -34,7 +34,8 @@ struct Motion {
 };
 
 // The place and heading of an agent. If `steps` > 0, the agent has made `steps` steps of a quarter
-// turn from `heading` to the adjacent heading `to`.
+// turn from `heading` to the adjacent heading `to`. Otherwise `to` should be equal to `heading`,
+// because operator== compares it.
 struct Pose {
   Place place = kNoPlace;
   Heading heading = Heading::kNorth;
@@ -66,12 +67,13 @@ class MotionWorld : public World {
 
   // `motions`: distinct motions with turn_steps > 0; motion i defines kind i + 1. `jobs`: no two
   // with the same task and base state. Throws std::invalid_argument if there are motions but the
-  // map is not a grid, or if there are more than kMaxStates states.
+  // map is not a grid, or if there would be more than kMaxStates states if every job had an initial
+  // state.
   MotionWorld(std::shared_ptr<const Map> map, std::vector<Motion> motions,
               std::span<const Job> jobs);
 
-  // Returns what state() returns, without a MotionWorld: the jobs of a world are defined by base
-  // states, and the numbers of base states do not depend on the jobs.
+  // As state(), but needs no MotionWorld, because the numbers of base states do not depend on the
+  // jobs. For creating the jobs of a world, which refer to base states.
   static State base_state(const Map& map, std::span<const Motion> motions, int kind,
                           const Pose& pose);
 

@@ -21,8 +21,8 @@ class Omega {
   static constexpr Omega infinite() { return Omega(kInfinite); }
 
   // Parses text such as "0", "0.01", "1e-2" or "inf". Throws std::invalid_argument if the text is
-  // not a number, is negative, exceeds 1e6, or has more than 9 decimals. what() states what was
-  // expected.
+  // neither a number from 0 to 1e6 nor "inf", or if the number is not a multiple of 1e-9 to within
+  // the precision of a double. what() states what was expected.
   static Omega parse(std::string_view text);
   // Returns the nearest multiple of 1e-9. Throws std::invalid_argument if `value` is negative,
   // exceeds 1e6 or is not a number.
@@ -30,7 +30,7 @@ class Omega {
 
   constexpr bool is_infinite() const { return billionths_ == kInfinite; }
   double value() const;           // rounded to double, for output; infinity if infinite
-  std::string to_string() const;  // shortest decimal, or "inf"
+  std::string to_string() const;  // shortest text that parse() accepts for this value
 
   // True if cost <= (1 + w) * bound, evaluated in integer arithmetic. True for every cost if w is
   // infinite.

@@ -77,8 +77,9 @@ AgentPlan plan_of_path(const Instance& instance, AgentIndex agent, const Path& p
   return agent_plan(instance, agent, order, path);
 }
 
-// Moves each task execution within a turn to the time before that turn. This is necessary because
-// the world has states at work within a turn only for the turn in which the agent starts.
+// Moves each task execution within a turn back to the last earlier pose that is not within a turn
+// or is the agent's start. This is necessary because the start is the only pose within a turn in
+// which the world has states at work.
 AgentPlan with_work_before_turns(const Instance& instance, AgentPlan plan) {
   for (WorkTime& work : plan.work) {
     if (work.begin <= 0) continue;

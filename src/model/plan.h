@@ -31,8 +31,8 @@ inline State state_at(const Path& path, Time time) {
 inline Place place_at(const World& world, const Path& path, Time time) {
   return world.place(state_at(path, time));
 }
-// The time from which the agent stays on its last place forever. The path may continue on this
-// place, for example with turns.
+// The earliest time from which the agent stays on its last place forever. The path may continue on
+// this place, for example with turns. Precondition: the path is not empty.
 Time last_arrival(const World& world, const Path& path);
 
 // The execution of a task that takes time, from time `begin` to `end` = `begin` + duration. `begin`
@@ -61,8 +61,9 @@ AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
 // If the agent rests on its last stop, the stop at the end of the path comes last. Precondition:
 // all tasks are visited, and the agent may rest at the end of the path.
 AgentPlan plan_of_path(const Instance& instance, AgentIndex agent, const Path& path);
-// The inverse of plan_of_path(): the path until the agent finishes, with states at work.
-// Precondition: `plan` is valid.
+// The inverse of plan_of_path(): the path until the agent finishes, with states at work. However,
+// it moves each task execution within a turn back to the last earlier pose that is not within a
+// turn or is the agent's start. Precondition: `plan` is valid.
 Path walked_path(const Instance& instance, AgentIndex agent, const AgentPlan& plan);
 
 struct Plan {
@@ -86,11 +87,11 @@ std::string_view to_string(Status status);
 std::optional<Status> parse_status(std::string_view text);
 
 // The status that follows from the cost of a plan and a proven lower bound. `cost`: nullopt if
-// there is no plan.
+// there is no plan; the status is then kUnknown.
 Status status_of(std::optional<Cost> cost, Cost lower_bound, Omega omega);
 
-// Statistics of a run, by name, as in "stats" of the plan file. A name includes the unit, as in
-// wall_s.
+// Statistics of a run, by name, as in "stats" of the plan file. A name includes the unit, if there
+// is one, as in wall_s.
 struct Stats {
   std::map<std::string, std::int64_t> counts;
   std::map<std::string, double> measures;

@@ -48,7 +48,8 @@ std::uint64_t limit_of(const fs::path& group) {
 }
 
 // The minimum of the limits of `folder` and of the groups on the path `group` below it. In a
-// container `group` can be a path of the host, of which only the container's own group is visible.
+// container `group` can be a path of the host, which does not exist below `folder`; then only the
+// limits of `folder` count.
 std::uint64_t limit_within(const fs::path& folder, std::string_view group) {
   std::uint64_t least = limit_of(folder);
   fs::path inner = folder;
@@ -71,7 +72,7 @@ bool lists(std::string_view controllers, std::string_view name) {
 }
 
 // The number in an environment variable. Returns nullopt if the variable is not set or is not an
-// integer >= 1.
+// integer from 1 to 2^31 - 1.
 std::optional<std::int64_t> count(const Environment& environment, const char* name) {
   const char* value = environment(name);
   if (value == nullptr) return std::nullopt;

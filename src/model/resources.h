@@ -13,7 +13,8 @@ namespace grove::detail {
 std::uint64_t physical_memory();
 // The minimum of physical_memory() and job_memory_limit(), in bytes.
 std::uint64_t usable_memory();
-// The number of cores that this process may use, >= 1.
+// The number of logical cores in the CPU affinity mask of this process; 1 if the system does not
+// report it.
 int usable_cores();
 
 // Returns the value of an environment variable; nullptr if it is not set.
@@ -22,8 +23,9 @@ using Environment = std::function<const char*(const char* name)>;
 // The memory limit in bytes of the batch job or container of this process, on this host: the
 // minimum of the limits of its control group (version 1 or 2), of the parent groups, and of its
 // Slurm job (SLURM_MEM_PER_NODE, or SLURM_MEM_PER_CPU times SLURM_CPUS_ON_NODE). All processes of
-// the job or container together must not exceed it, or they are killed. Returns nullopt if there is
-// no limit. Reads /proc/self/cgroup and files below /sys/fs/cgroup, where `root` stands for "/".
+// the job or container together must not exceed it, or the system throttles or kills them. Returns
+// nullopt if there is no limit. Reads /proc/self/cgroup and files below /sys/fs/cgroup, where
+// `root` stands for "/".
 std::optional<std::uint64_t> job_memory_limit(const std::filesystem::path& root,
                                               const Environment& environment);
 // The limit of this process: root "/" and the real environment.

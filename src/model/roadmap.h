@@ -59,7 +59,7 @@ class Roadmap : public World {
 
   // The position in vertices() of the vertex with this id. Returns nullopt if there is none.
   std::optional<int> vertex(std::string_view id) const;
-  // The place of a vertex; and the place that is `steps` steps from the beginning of a road, where
+  // The place of a vertex; and the place that is `steps` steps from the start of a road, where
   // 0 <= steps <= Road::steps.
   Place place_of_vertex(int vertex) const { return vertex; }
   Place place_on_road(int road, Time steps) const;
@@ -69,13 +69,14 @@ class Roadmap : public World {
   // The roads that join two vertices, in either direction. The span is empty if there are none.
   std::span<const int> roads_between(int a, int b) const;
 
-  // The path entry in plan files, such as ["A"] or ["A", "B", 2].
+  // The path entry in plan files, such as ["A"] or ["A", "B", 2], with the index of the road as a
+  // fourth element if several roads join the vertices.
   std::string name(State state) const override;
 
  private:
   std::vector<Vertex> vertices_;
   std::vector<Road> roads_;
-  std::vector<Place> first_inner_;  // by road; the last entry is the end of the last road
+  std::vector<Place> first_inner_;  // by road; then the number of places
   std::map<std::pair<int, int>, std::vector<int>> by_ends_;
   std::unordered_map<std::string, int> by_id_;
 };

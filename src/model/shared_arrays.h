@@ -39,12 +39,15 @@ class SharedArray {
   // Computes the array, unless another process or thread has already started to. To compute it,
   // calls fill(begin), where `begin` points to the memory of the array, which has the size given in
   // the layout. fill() must return true on success, and must write the same bytes in every process.
+  // If it returns false or throws, the array remains unavailable. Does nothing if this refers to no
+  // array.
   template <class Fill>
   void make(const Fill& fill) const;
 
   // Returns the array if it is complete. If another process or thread is computing it, waits up to
-  // 1 s. Returns nullptr if the computation failed or did not start, or if the wait ended after 1 s
-  // or at a limit. In that case the caller must compute the data in memory of its own.
+  // 1 s. Returns nullptr if this refers to no array, if the computation failed or did not start, or
+  // if the wait ended after 1 s or at a limit. In that case the caller must compute the data in
+  // memory of its own.
   const std::byte* await(const Limits& limits) const;
 
   // Calls make(), then await().
@@ -93,7 +96,8 @@ class SharedArrays {
   static std::size_t bytes(const ArrayLayout& layout);
   static std::size_t zero_bytes(const ArrayLayout& layout);
 
-  // `memory` must outlive this object. All members must pass the same layout, and different numbers
+  // `memory` must have at least bytes(layout) bytes, and must outlive this object and every
+  // SharedArray that refers to it. All members must pass the same layout, and different numbers
   // `member` from 0 to `members` - 1. Throws std::invalid_argument if `memory` does not begin at a
   // multiple of kAlignment.
   SharedArrays(std::span<std::byte> memory, const ArrayLayout& layout, int member, int members);

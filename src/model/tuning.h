@@ -43,8 +43,8 @@ std::span<const Tunable> tunables();
 std::span<const std::string> accepted_tunable_names();
 // Sets one parameter from text such as "pair-expansions=20". A deprecated name of a parameter sets
 // that parameter. For the name of a former parameter, which is now a constant, only the value of
-// the constant is accepted. Throws std::invalid_argument if the parameter does not exist or the
-// value is not a number in its range. what() states what was expected.
+// the constant is accepted. Throws std::invalid_argument if `text` has another form, the parameter
+// does not exist, or the value is not a number in its range. what() states what was expected.
 void set(Tuning& tuning, std::string_view text);
 
 }  // namespace grove::detail

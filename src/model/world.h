@@ -87,7 +87,7 @@ class World {
   }
 
   // moves(): the states to which a move leads from `state`. moves_to(): the states from which a
-  // move leads to `state`. Both are empty for a blocked cell.
+  // move leads to `state`. No move connects a blocked cell with another place.
   std::span<const State> moves(State state) const { return moves_[state]; }
   std::span<const State> moves_to(State state) const {
     return is_symmetric_ ? moves_[state] : moves_back_[state];
