@@ -227,7 +227,7 @@ MemoryUse SharedSearch::memory_use() const {
   return {.process = static_cast<std::int64_t>(resident_bytes()),
           .nodes = static_cast<std::int64_t>(pool_.bytes()),
           .prices = static_cast<std::int64_t>(known->subproblems.bytes()),
-          .mdds = static_cast<std::int64_t>(known->mdds.bytes()),
+          .path_sets = static_cast<std::int64_t>(known->mdds.bytes()),
           .groups = static_cast<std::int64_t>(known->excesses.bytes())};
 }
 

@@ -94,7 +94,7 @@ class FreeOrderSipp::Workspace {
   explicit Workspace(const World& world)
       : search_(world),
         visit_check_(world, search_.intervals()),
-        late_goals_(world, search_.intervals()) {}
+        late_stages_(world, search_.intervals()) {}
 
   PathOutcome find(SequenceStages& goals, const PathQuery& query, const Limits& limits, Path& path);
   std::int64_t expanded() const { return search_.expanded(); }
@@ -112,7 +112,7 @@ class FreeOrderSipp::Workspace {
 
   Search search_;
   SingleStopBound visit_check_;
-  LateStages late_goals_;
+  LateStages late_stages_;
 
   // Data of the current call.
   const ConflictAvoidanceTable* others_ = nullptr;
@@ -245,7 +245,7 @@ std::optional<PathOutcome> FreeOrderSipp::Workspace::check_feasibility() {
 bool FreeOrderSipp::Workspace::recompute_costs() {
   if (recompute_costs_at_ == kNotAgain) return false;
   recompute_costs_at_ = kNotAgain;
-  SequenceStages* const late = late_goals_.over(goals(), *limits_);
+  SequenceStages* const late = late_stages_.with_late_costs(goals(), *limits_);
   if (late) search_.goals().set_stages(*late);
   return late != nullptr;
 }

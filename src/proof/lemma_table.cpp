@@ -51,7 +51,7 @@ void LemmaTable::add(TableLemma lemma) {
 LemmaTable::Leaf LemmaTable::leaf(std::span<const LemmaNumber> named, Cost bound) const {
   Leaf leaf{worth_naming(named), false};
   if (leaf.names.size() > kMaxNames) return leaf;
-  // leave_out() removes the last lemmas first, which are those with the most constraints.
+  // remove_redundant() removes the last lemmas first, which are those with the most constraints.
   std::ranges::stable_sort(leaf.names, {},
                            [&](LemmaNumber name) { return lemmas_[name].constraints.size(); });
   std::vector<ProofExcess> excesses;
@@ -61,7 +61,7 @@ LemmaTable::Leaf LemmaTable::leaf(std::span<const LemmaNumber> named, Cost bound
     sum = std::min(kInfiniteCost, sum + lemmas_[name].bound);
   }
   if (sum >= bound && covered(excesses, kNoSteps) >= bound) {
-    leave_out(excesses, bound, kNoSteps);
+    remove_redundant(excesses, bound, kNoSteps);
     leaf.by_lemmas = true;
     leaf.names.clear();
     for (const ProofExcess& excess : excesses)

@@ -126,7 +126,7 @@ void Expander::log_proof(const Branching& branching, const NodePtr& node,
   ProofSplit written{proof_key(*node), split, {cutoff, cutoff}};
   for (const NodePtr& child : children)
     written.costs[child->added() == split[0] ? 0 : 1] = child->cost();
-  if (splits_on_costs(split)) written.lemma = dependencies_.why(view_, split);
+  if (splits_on_costs(split)) written.lemma = dependencies_.lemma_key(view_, split);
   proof_->split(written);
 }
 

@@ -33,9 +33,10 @@ std::size_t bytes_of_constraints(const LearnedBound& fact) {
 }
 
 // Collects the learned bounds all of whose agents belong to trees in the index.
-class Collector {
+class BoundCollector {
  public:
-  Collector(const SharedCache& memory, const TreeIndex& trees) : memory_(memory), trees_(trees) {}
+  BoundCollector(const SharedCache& memory, const TreeIndex& trees)
+      : memory_(memory), trees_(trees) {}
 
   void add(std::span<const SubproblemTable::Id> ids, SubproblemTable::CostBound cost,
            DependencyTable::ExcessBound excess) {
@@ -94,12 +95,12 @@ const Tree* TreeIndex::numbered(std::uint32_t number) const {
 
 std::vector<LearnedBound> learned_bounds_of(const NewEntries& news, const SharedCache& memory,
                                             const TreeIndex& trees) {
-  Collector facts(memory, trees);
-  for (const auto& [id, known] : news.costs) facts.add(std::array{id}, known, {});
+  BoundCollector collector(memory, trees);
+  for (const auto& [id, known] : news.costs) collector.add(std::array{id}, known, {});
   for (const auto& pair : news.pairs)
-    facts.add(std::array{pair.first, pair.second}, {}, pair.known);
-  for (const auto& group : news.groups) facts.add(group.subproblems, {}, group.known);
-  return facts.all();
+    collector.add(std::array{pair.first, pair.second}, {}, pair.known);
+  for (const auto& group : news.groups) collector.add(group.subproblems, {}, group.known);
+  return collector.all();
 }
 
 void merge(LearnedBound fact, const TreeIndex& trees, SharedCache& memory) {
