@@ -79,9 +79,9 @@ class GROVE_API Session {
   /// is ignored.
   ///
   /// An agent whose old plan ends on a visited task (see instance()) is first planned to end on one
-  /// of its remaining tasks. If that gives no plan, or only one that costs more than the old plan,
-  /// it keeps the end of the old plan as its destination; Solution::texts then lists its id under
-  /// "ends_of_old_plan".
+  /// of its remaining tasks. If that gives no plan, or only one that costs more than a still valid
+  /// old plan, a second search gives it the end of its old path as its destination. If the second
+  /// search finds a plan, Solution::texts lists the ids of these agents under "ends_of_old_plan".
   ///
   /// Throws what solve() throws, and InvalidArgument with field() "/commit" if `commit` < 0 or if a
   /// path is blocked before the committed steps end.
