@@ -27,11 +27,12 @@ class CentralTrees : public TreeSource {
 
   // Must be called before the other functions, on one thread. resume_with() adds one tree of an
   // earlier run, after the forest has made the same tree and before the tree's nodes are pushed.
-  // begin(), called last, instantiates the first tree unless resume_with() added one.
+  // begin(), called last, instantiates the first tree unless resume_with() added one or the run is
+  // over.
   void resume_with(const NodePtr& root);
   void begin();
 
-  // Number of trees instantiated so far, with their roots pushed.
+  // Number of trees instantiated so far whose roots have been pushed or pruned.
   std::int64_t count() const { return count_; }
   // Returns the records of the first `count` trees.
   std::vector<TreeRecord> records(std::int64_t count) const;

@@ -35,7 +35,7 @@ class LiveNodes {
   virtual Counts counts() const = 0;
 
   virtual void push(const NodePtr& root) = 0;
-  // Drops the nodes with a bound of at least `cost`, which must be the cost of a checked plan.
+  // Drops the open nodes with a bound of at least `cost`, which must be the cost of a checked plan.
   virtual void prune(Cost cost) = 0;
   // See Frontier::restart().
   virtual void restart(std::span<const NodePtr> roots, Cost proven) = 0;

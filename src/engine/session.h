@@ -54,7 +54,8 @@ class Session {
   //
   // The instance is first solved without the destinations that agents have only because of the old
   // plan (execution/advance.h). If that finds no plan, or one that costs more than a still valid
-  // old plan, the agents keep these destinations, and texts["ends_of_old_plan"] lists their ids.
+  // old plan, a second search keeps these destinations. If the second search finds a plan,
+  // texts["ends_of_old_plan"] lists the ids of these agents.
   //
   // The independent checker has verified every plan, including those passed to `observer`. Throws
   // what solve() throws, InvalidPlan, and NotCommitted.
