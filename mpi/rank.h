@@ -42,7 +42,7 @@ class Rank {
   const AgentStopsCache& stops() const { return stops_; }
 
   // Handles a message to this rank. Throws std::invalid_argument for a type of message that no rank
-  // receives.
+  // receives, and for invalid content.
   void handle(int from, message::Message&& message);
   // On rank 0: sets the lower bound of the whole search.
   void set_lower_bound(Cost bound) { shared_bounds_.set_lower_bound(bound); }

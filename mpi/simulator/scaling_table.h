@@ -44,7 +44,8 @@ struct ScalingRow {
   std::int64_t ranks_without_node = 0;
 };
 
-// Compares `run` with `alone`, the run of a single rank.
+// Compares `run` with `alone`, the run of a single rank. If `alone` did not end, the fields that
+// compare the two runs stay 0.
 ScalingRow scaling_row(const SimulatedRun& run, const SimulatedRun& alone);
 
 // The column names, and the values of a row: comma-separated, without a line end.
