@@ -36,8 +36,8 @@ class RunState {
   // The agents' stops that were computed for the first tree; the workers' caches start with them.
   const AgentStopsCache& stops() const { return stops_; }
 
-  // Posts the start plan and instantiates the first tree. Must be called first, unless restore()
-  // is.
+  // Posts the start plan and instantiates the first tree. Must be called first, unless restore() is
+  // called instead.
   void begin();
   // Restores the data of a checkpoint and makes its trees again. Called instead of begin(). Returns
   // the roots by tree number; the caller must then push the nodes, record the evicted bound, and
