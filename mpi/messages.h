@@ -123,7 +123,7 @@ struct LearnedBounds {
   std::vector<std::string> facts;  // packed by packed(), because many ranks only forward them
 };
 
-// To all ranks below: a tree, sent before any of its nodes.
+// To all ranks below: a tree, sent before any of its nodes is assigned.
 struct NewTree {
   std::uint32_t number = 0;
   TreeRecord tree;

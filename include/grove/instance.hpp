@@ -76,7 +76,7 @@ class GROVE_API Instance {
 /// Restrictions for untrusted files and texts; see read_instance() and parse_instance().
 struct Trust {
   /// True: refuses a file that names its map or roadmap by an absolute path, or outside its own
-  /// directory by `..` or a symbolic link.
+  /// directory (for a text: outside `folder`) by `..` or a symbolic link.
   bool confine = false;
   /// Limit, in bytes, on the memory for the map and the states of the agents on it. A file that
   /// needs more is refused before the memory is allocated; 64 MiB are always granted. std::nullopt:

@@ -18,7 +18,7 @@
 namespace grove::detail {
 
 // Instantiates the next tree of a forest when GlobalBounds requires it, and pushes its root. When
-// no node is live but some were evicted, it pushes all roots again.
+// no node is live but some were evicted, it can push the roots again; see restart() in the .cpp.
 class CentralTrees : public TreeSource {
  public:
   // All arguments must outlive this object.
@@ -32,7 +32,8 @@ class CentralTrees : public TreeSource {
   void resume_with(const NodePtr& root);
   void begin();
 
-  // Number of trees instantiated so far whose roots have been pushed or pruned.
+  // Number of trees instantiated so far. Their roots have been pushed or pruned, except the roots
+  // passed to resume_with().
   std::int64_t count() const { return count_; }
   // Returns the records of the first `count` trees.
   std::vector<TreeRecord> records(std::int64_t count) const;

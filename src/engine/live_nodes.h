@@ -28,7 +28,8 @@ class LiveNodes {
 
   // Lower bound on all plans in live and in evicted nodes.
   virtual Cost bound() const = 0;
-  // Least bound of an evicted node; kInfiniteCost if none was evicted.
+  // Least bound of the nodes evicted since the last restart and not pruned; kInfiniteCost if there
+  // is none.
   virtual Cost evicted_bound() const = 0;
   // False only if no node is live.
   virtual bool any() const = 0;

@@ -29,7 +29,7 @@ inline constexpr int kDeterministicWorkers = 4;
 
 // Runs the workers in rounds: they choose work items one worker after the other, perform them
 // concurrently on up to `threads` threads, and commit them one worker after the other. Therefore
-// the result does not depend on `threads`.
+// the result does not depend on `threads`, unless a limit is reached.
 void run_deterministic(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
                        int threads, const BetweenItems& between_turns);
 

@@ -36,8 +36,8 @@ enum class RunEvent : std::uint8_t {
 
 // Observer of a run. The base class does nothing. The threads that run the search call it, one call
 // at a time. The calling thread does not search during the call, so functions should return
-// quickly. References are valid only during the call. Nodes must not be kept, because they live
-// only as long as the run.
+// quickly. References are valid only during the call. Nodes must not be kept after the end of the
+// run, because their memory belongs to the run.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;

@@ -18,7 +18,8 @@
 namespace grove::detail {
 
 // Finds a first plan by prioritised planning, interleaved with LaCAM if planning takes long (only
-// with Technique::kLacam). Improves the plan by large neighbourhood search, and starts again with a
+// with Technique::kLacam, and if the instance permits following). Improves the plan by large
+// neighbourhood search, an expensive plan first by traffic-guided LaCAM, and starts again with a
 // different agent order when that stalls. The schedule is at the head of primal_search.cpp. Works
 // in small steps, so that its thread can do other work in between. Deterministic: the same seed,
 // steps, adopted plans and dual solutions yield the same plans, unless a limit is reached. One
