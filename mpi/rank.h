@@ -70,7 +70,8 @@ class Rank {
   bool left() const;
 
  private:
-  struct DeferredBatch {  // a batch that arrived before its tree or its Restart
+  // A batch that arrived before its tree or its Restart, or behind such a batch from the same rank.
+  struct DeferredBatch {
     int from;
     message::NodeBatch batch;
   };

@@ -39,7 +39,7 @@ struct ScalingRow {
   double coordinator_wait_s = 0;  // mean seconds from the arrival of a message to its handling
   // Load balance.
   double max_over_mean = 0;  // maximum / mean over ranks of the seconds spent on expansions
-  double idle_share = 0;     // fraction of the time of all workers
+  double idle_share = 0;     // idle time as a fraction of the time of all workers
   double first_node_s = 0;   // mean time at which a rank's worker started its first node
   std::int64_t ranks_without_node = 0;
 };

@@ -59,7 +59,7 @@ class CentralTrees : public TreeSource {
   RunEvents& run_events_;
 
   mutable std::mutex growing_;  // guards the forest and the non-atomic members below
-  std::vector<NodePtr> roots_;  // by the number of the tree
+  std::vector<NodePtr> roots_;  // by tree number
   NodePtr prepared_;            // root of the next tree if prepared, else nullptr
   Cost restarted_at_ = -1;      // evicted_bound() at the last restart; -1: none
   std::int64_t restarts_ = 0;

@@ -32,7 +32,7 @@ struct CheckpointHeader {
   std::optional<Plan> incumbent;        // by AgentIndex and TaskIndex of that instance
   Cost lower_bound = 0;                 // proven: no plan costs less
   Cost evicted_bound = kInfiniteCost;   // least bound of evicted nodes; kInfiniteCost: none
-  std::int64_t trees_instantiated = 0;  // trees made by the forest so far; >= trees.size()
+  std::int64_t trees_instantiated = 0;  // trees instantiated so far; >= trees.size()
   std::vector<TreeRecord> trees;        // by number; includes the tree of each node
   std::map<std::string, std::int64_t> counters;  // of all runs so far, by name: nodes_expanded, ...
   double seconds = 0;                            // duration of all runs so far

@@ -58,8 +58,9 @@ class LagrangianBound {
   // too little work left in this round. The caller must send them.
   std::vector<DispatchedRequest> dispatch_pricing();
   // Processes a helper's reply. Uses a value only if the round and the multipliers are still those
-  // of the request and the agent has no value yet. Returns the number of values used. Throws
-  // std::invalid_argument if the agents were not requested.
+  // of the request and the agent has no value yet. Returns the number of values used. Returns 0 for
+  // a reply that is late. Throws std::invalid_argument if a current reply has agents that were not
+  // requested.
   int accept(int helper, PricingReply answer);
 
   // From now on, records the multipliers that prove lower_bound(). Call it before the first job.
