@@ -92,10 +92,9 @@ class PenalizedSearch {
   const World& world_;
   std::vector<std::vector<Mark>> marks_;  // by stage, then state
   std::uint32_t stamp_ = 0;
-  std::vector<Label> labels_;  // in ascending order of time
-  std::vector<std::pair<Place, std::vector<Amount>>>
-      rests_;                       // by place: penalty of rest, by arrival time
-  std::vector<Amount> end_bounds_;  // see compute_end_bounds()
+  std::vector<Label> labels_;                                 // in ascending order of time
+  std::vector<std::pair<Place, std::vector<Amount>>> rests_;  // penalty of rest by arrival time
+  std::vector<Amount> end_bounds_;                            // see compute_end_bounds()
   std::int64_t labels_created_ = 0;
 
   // Data of the current call.
