@@ -98,8 +98,8 @@ GROVE_API Instance parse_instance(std::string_view text, const std::filesystem::
 /// Parses a text like the overload above, under the restrictions of `trust`. Throws InputError.
 GROVE_API Instance parse_instance(std::string_view text, const std::filesystem::path& folder,
                                   const Trust& trust, std::vector<std::string>* warnings = nullptr);
-/// Parses a text that contains the agents and tasks of a `*.cts.json` file, but no map, `{"agents":
-/// [...], "tasks": [...]}`, and places them on `world`. Throws InputError.
+/// Parses a text with the agents and tasks of a `*.cts.json` file, but without a map, and places
+/// them on `world`: `{"agents": [...], "tasks": [...]}`. Throws InputError.
 GROVE_API Instance parse_instance(std::string_view text, const World& world, Rules rules = {});
 /// Returns the agents and tasks as a JSON text, which parse_instance(text, world) reads. The text
 /// contains neither the world nor the rules.

@@ -121,7 +121,7 @@ GROVE_API Solution read_plan(const std::filesystem::path& path, const Instance& 
 /// Parses the text of a plan file like read_plan(). Throws InputError.
 GROVE_API Solution parse_plan(std::string_view text, const Instance& instance);
 /// Writes a plan file, completely or not at all. Throws InputError if the file cannot be written,
-/// and InvalidArgument if check() finds an error or throws it.
+/// and InvalidArgument if check() finds an error or throws InvalidArgument.
 GROVE_API void write_plan(const std::filesystem::path& path, const Instance& instance,
                           const Solution& solution);
 /// Returns the content of the file that write_plan() writes. Throws InvalidArgument like
