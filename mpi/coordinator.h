@@ -31,10 +31,11 @@ class Coordinator {
   // before any other function. Throws what reading the checkpoint throws.
   void begin();
   // Handles a message from a child. Throws std::invalid_argument for a type of message that no
-  // child sends, and what GlobalBounds::post() throws.
+  // child sends and for a status that cannot follow the previous one, and what GlobalBounds::post()
+  // throws.
   void handle(int from, message::Message&& message);
-  // Takes a due checkpoint and supplies nodes if none is live, or ends the run if it is over. Must
-  // be called repeatedly.
+  // Starts a due checkpoint. If no checkpoint is in progress, ends the run if it is over, supplies
+  // nodes if none is live, or prepares the next tree. Must be called repeatedly.
   void step();
 
   Cost lower_bound() { return run_.shared_bounds().lower_bound(); }

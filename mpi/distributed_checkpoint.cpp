@@ -68,8 +68,8 @@ void DistributedCheckpoint::handle(const message::SnapshotTaken& gathered) {
   ask_next();
 }
 
-// Sends a heartbeat if none was sent recently. Otherwise a rank that has sent its snapshot, or
-// waits for SnapshotNext, would consider rank 0 unresponsive.
+// Sends a heartbeat if none was sent recently. Without heartbeats, a rank that has sent its
+// snapshot, or waits for SnapshotNext, would consider rank 0 unresponsive.
 void DistributedCheckpoint::send_heartbeat() {
   if (limits_.now() - announced_at_ < kMaxPause) return;
   children_.broadcast(message::Heartbeat{});

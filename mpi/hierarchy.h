@@ -21,9 +21,9 @@ struct Endpoint {
 // top coordinator on rank 0. Immutable: any thread may read it.
 class Hierarchy {
  public:
-  // Chooses the smallest number of levels with at most `max_children` children per coordinator,
-  // and for this number of levels the smallest number of children. `ranks` >= 1, `max_children` >=
-  // 2.
+  // Chooses the smallest number of levels with at most `max_children` children per coordinator, and
+  // for this number of levels the smallest number of children, at least 2. `ranks` >= 1,
+  // `max_children` >= 2.
   Hierarchy(int ranks, std::int64_t max_children);
 
   int ranks() const { return ranks_; }

@@ -29,9 +29,9 @@ namespace grove::detail::message {
 struct Surplus {
   Cost bound = kInfiniteCost;
   std::int64_t nodes = 0;
-  // Additional nodes that only an idle rank can get: the best open node of each rank whose worker
-  // is expanding a node. (Busy ranks would otherwise transfer their best nodes to each other for
-  // ever.)
+  // Additional nodes that only an idle rank can get: at most one, the best open node, of each rank
+  // whose worker is expanding a node. (Busy ranks would otherwise transfer their best nodes to each
+  // other for ever.)
   std::int64_t next = 0;
 
   friend bool operator==(const Surplus&, const Surplus&) = default;
@@ -123,7 +123,7 @@ struct LearnedBounds {
   std::vector<std::string> facts;  // packed by packed(), because many ranks only forward them
 };
 
-// To all ranks below: a tree, sent before any of its nodes.
+// To all ranks below: a tree, sent before any of its nodes is assigned.
 struct NewTree {
   std::uint32_t number = 0;
   TreeRecord tree;
@@ -145,7 +145,7 @@ struct SendNodes {
 };
 
 // To rank `from`, through the coordinators: a processed status covers the first `batches` batches
-// that it sent to rank `to`, so their custody ends.
+// that rank `from` sent to rank `to`, so their custody ends.
 struct ReleaseCustody {
   std::int32_t from = 0;
   std::int32_t to = 0;

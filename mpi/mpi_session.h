@@ -17,8 +17,8 @@ namespace grove::detail {
 // it and its transports. "Collective" marks functions that all ranks must call.
 class MpiSession {
  public:
-  // Session without MPI: rank 0 of 1, on which only gather() may be called. For programs that only
-  // print their help, because this must work where MPI cannot start.
+  // Session without MPI: rank 0 of 1, on which only rank(), ranks() and gather() may be called. For
+  // programs that only print their help, because that must work where MPI cannot start.
   MpiSession() = default;
   // Initializes MPI. Throws std::runtime_error if MPI does not provide MPI_THREAD_FUNNELED.
   MpiSession(int& argc, char**& argv);

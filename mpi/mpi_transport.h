@@ -17,7 +17,7 @@ namespace grove::detail {
 class MpiTransport : public Transport {
  public:
   explicit MpiTransport(MPI_Comm communicator);
-  // During stack unwinding it does not free the communicator.
+  // During stack unwinding it neither waits for unfinished sends nor frees the communicator.
   ~MpiTransport() override;
 
   int rank() const override { return rank_; }

@@ -39,8 +39,8 @@ constexpr double kMaxPause_s = 20e-3;
 
 // Returns the minimum interval between two messages that are not urgent, at `time` after the start
 // of the run; `pause` is the interval at the start. All in seconds. The interval grows to a
-// hundredth of `time`, because each message wakes its receiver, and information loses little value
-// in that time.
+// hundredth of `time`, but not above kMaxPause_s, because each message wakes its receiver, and
+// information loses little value in that time.
 inline double pause_at(double time, double pause) {
   return std::max(pause, std::min(time / 100, kMaxPause_s));
 }

@@ -228,8 +228,8 @@ void Rank::restart(Cost proven) {
 }
 
 // Workers run concurrently, so the order of the reads matters. The evicted bound is read after
-// `live`, because a restart must set_lower_bound every evicted node, and no node is evicted once
-// none is live.
+// `live`, because a status with live == false must cover every evicted node, and no node is evicted
+// once none is live.
 message::Status Rank::status() const {
   message::Status status;
   const auto live = static_cast<std::int64_t>(nodes_.frontier.live());

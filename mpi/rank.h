@@ -28,7 +28,8 @@ namespace grove::detail {
 
 // Holds the nodes of a rank for its workers, and exchanges messages about them with the coordinator
 // and with other ranks. The protocol is at the head of coordinator.cpp. search() and the objects
-// reachable from it are thread-safe. Only the communicating thread may use everything else.
+// reachable from it are thread-safe, except where they say otherwise. Only the communicating thread
+// may use everything else.
 class Rank {
  public:
   // All arguments must outlive this object, except `stops`, which is copied. `stops`: cached stops
@@ -42,13 +43,14 @@ class Rank {
   const AgentStopsCache& stops() const { return stops_; }
 
   // Handles a message to this rank. Throws std::invalid_argument for a type of message that no rank
-  // receives.
+  // receives, and for invalid content.
   void handle(int from, message::Message&& message);
   // On rank 0: sets the lower bound of the whole search.
   void set_lower_bound(Cost bound) { shared_bounds_.set_lower_bound(bound); }
   // Sends plans found here, learned bounds, pricing requests or replies, and the status. Plans are
   // sent at once. A status is sent at once if it is urgent, otherwise at a limited rate; see
-  // ParentLink::report(). `now`: seconds since the start of the run.
+  // ParentLink::report(). Sends nothing once ended() is true. `now`: seconds since the start of the
+  // run.
   void send_updates(double now);
   // The time at which send_updates() can have something to send even if nothing happens until then,
   // in seconds since the start of the run. Infinity: never.
@@ -68,7 +70,8 @@ class Rank {
   bool left() const;
 
  private:
-  struct DeferredBatch {  // a batch that arrived before its tree or its Restart
+  // A batch that arrived before its tree or its Restart, or behind such a batch from the same rank.
+  struct DeferredBatch {
     int from;
     message::NodeBatch batch;
   };

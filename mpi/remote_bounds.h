@@ -32,15 +32,16 @@ class RemoteBounds : public SharedBounds {
   Cost cutoff() const override { return cutoff_; }
   std::optional<Plan> plan_below(Cost cost) const override;
   // The minimum of the bound of the whole search (infinite while unknown) and the bound of the
-  // local nodes, which alone suffices to choose among the local nodes.
+  // local nodes. The latter alone suffices to choose among the local nodes.
   Cost lower_bound() const override { return std::min(known_.load(), frontier_.bound()); }
-  // Stores the plan, to be sent. No worker prunes by it before rank 0 has checked it.
+  // Stores the plan, to be sent, if it is better than the incumbent and than the plan stored so
+  // far. No worker prunes by it before rank 0 has checked it.
   void post(Plan plan, PlanSource source) override;
   void prove(Cost bound, BoundSource by) override;
   void nodes_changed() override {}
 
-  // Returns the best plan posted since the last call, or nullopt if no such plan is better than the
-  // incumbent.
+  // Returns the best plan posted since the last call, or nullopt if no plan posted since then was
+  // better than the incumbent at that time.
   std::optional<Found> take_found();
   // The best bound that this rank has proven outside the tree search, and its source.
   std::pair<Cost, BoundSource> proven() const;

@@ -28,7 +28,7 @@ struct UnresponsiveRanks : std::runtime_error {
 // except for its own number of threads. The calling thread communicates and calls `poll` every few
 // milliseconds; other threads search. Rank 0 returns the solution, the other ranks return nullopt.
 // A limit reached on any rank ends the run. On rank 0 `observer` receives the events of the run,
-// except events about single nodes other than roots. `options.deterministic` must not be set.
+// except on_expanded() and on_evicted(). `options.deterministic` must not be set.
 //
 // Throws what solve() throws. Rank 0 throws UnresponsiveRanks; the other ranks then wait until the
 // caller of rank 0 ends their processes. A rank other than 0 throws std::runtime_error if rank 0 is

@@ -93,7 +93,8 @@ void SubCoordinator::update(int child, message::Status&& status) {
                    message::SendNodes{transfer->to, transfer->nodes, transfer->to_idle});
 }
 
-// When all children have taken their snapshots, all plans found before them have been forwarded.
+// When all children have taken their snapshots, all plans found before the snapshots have been
+// forwarded.
 void SubCoordinator::gathered(const message::SnapshotTaken& parts) {
   gathered_.evicted_bound = std::min(gathered_.evicted_bound, parts.evicted_bound);
   if (++snapshots_taken_ == children_.count()) parent_.send(gathered_);

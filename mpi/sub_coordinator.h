@@ -20,11 +20,12 @@ namespace grove::detail {
 class SubCoordinator {
  public:
   // The level-`level` coordinator, below the top, on the transport's rank. `transport` must outlive
-  // this.
+  // this object.
   SubCoordinator(Transport& transport, const Hierarchy& hierarchy, int level, const Tuning& tuning);
 
   // Handles a message from a child (`from` is its rank) or from the parent. Throws
-  // std::invalid_argument for a type of message that neither of them sends.
+  // std::invalid_argument for a type of message that neither child nor parent sends, and for a
+  // status that cannot follow the previous one.
   void handle(int from, message::Message&& message);
   // Reports changes to the parent; see ParentLink::report(). `now`: seconds since the start of the
   // run.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Exceptions that the library throws, in addition to std::bad_alloc.
+/// Exceptions that the library throws, in addition to std::bad_alloc, and to std::out_of_range from
+/// Plan::pose().
 #pragma once
 
 #include <stdexcept>
@@ -40,8 +41,8 @@ class GROVE_API InvalidArgument : public Error {
   InvalidArgument(const InvalidArgument&) = default;             ///< Copy constructor.
   InvalidArgument& operator=(const InvalidArgument&) = default;  ///< Copy assignment.
   ~InvalidArgument() override;
-  /// JSON Pointer to the invalid value ("/agents/2/goal", "/omega"). Empty: the whole argument is
-  /// invalid.
+  /// JSON Pointer to the invalid value ("/agents/2/goal", "/omega"). Empty: the error concerns no
+  /// single value.
   const std::string& field() const noexcept { return field_; }
 
  private:

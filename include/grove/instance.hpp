@@ -20,7 +20,7 @@ namespace grove {
 
 /// A task that an agent is executing at time 0.
 struct WorkBegun {
-  std::string task = {};  ///< Id of a task of this agent, at its start and with a duration.
+  std::string task = {};  ///< Id of a task of this agent that has a duration and is at its start.
   int done = 0;           ///< Time steps executed so far, from 0 to the task's duration - 1.
 };
 
@@ -56,7 +56,7 @@ struct Rules {
 /// data.
 class GROVE_API Instance {
  public:
-  /// Throws InvalidArgument if the arguments are no valid instance. field() is "/agents" or
+  /// Throws InvalidArgument if the arguments do not form a valid instance. field() is "/agents" or
   /// "/agents/<i>/...", "/tasks/<i>/...", or "/map" or "/roadmap" if motion and durations do not
   /// suit the world.
   Instance(World world, std::vector<Agent> agents, std::vector<Task> tasks, Rules rules = {});
@@ -76,7 +76,7 @@ class GROVE_API Instance {
 /// Restrictions for untrusted files and texts; see read_instance() and parse_instance().
 struct Trust {
   /// True: refuses a file that names its map or roadmap by an absolute path, or outside its own
-  /// directory by `..` or a symbolic link.
+  /// directory (for a text: outside `folder`) by `..` or a symbolic link.
   bool confine = false;
   /// Limit, in bytes, on the memory for the map and the states of the agents on it. A file that
   /// needs more is refused before the memory is allocated; 64 MiB are always granted. std::nullopt:
@@ -98,8 +98,8 @@ GROVE_API Instance parse_instance(std::string_view text, const std::filesystem::
 /// Parses a text like the overload above, under the restrictions of `trust`. Throws InputError.
 GROVE_API Instance parse_instance(std::string_view text, const std::filesystem::path& folder,
                                   const Trust& trust, std::vector<std::string>* warnings = nullptr);
-/// Parses only the agents and tasks of such a text, `{"agents": [...], "tasks": [...]}`, and places
-/// them on `world`. Throws InputError.
+/// Parses a text with the agents and tasks of a `*.cts.json` file, but without a map, and places
+/// them on `world`: `{"agents": [...], "tasks": [...]}`. Throws InputError.
 GROVE_API Instance parse_instance(std::string_view text, const World& world, Rules rules = {});
 /// Returns the agents and tasks as a JSON text, which parse_instance(text, world) reads. The text
 /// contains neither the world nor the rules.

@@ -27,9 +27,10 @@ namespace grove::mpi {
 /// The defaults of threads and memory limit are for one process per host. Divide them by the number
 /// of ranks on the host, unless each rank is bound to its own cores and has its own memory limit.
 ///
-/// Throws on all ranks: what grove::solve() throws if the arguments of any rank are invalid, and
-/// InvalidArgument with field() "/instance" if the instances differ between ranks, "/deterministic"
-/// if that option is set, or "/method" for a method that needs a single process.
+/// Throws on all ranks: Error if MPI is not initialised as described; InvalidArgument if the
+/// arguments of any rank are invalid (with an empty field() on ranks whose own arguments are
+/// valid); and InvalidArgument with field() "/instance" if the instances differ between ranks,
+/// "/deterministic" if that option is set, or "/method" for a method that needs a single process.
 ///
 /// Throws on one rank only: any later error, and on rank 0 Error if other ranks have not responded
 /// within a second or two after a limit was reached. The caller must then call MPI_Abort.

@@ -98,12 +98,12 @@ struct Violation {
 /// Returns the errors in a plan, at most `limit`; empty: the plan is valid. The checker recomputes
 /// everything from instance and plan. It shares with the search only the representation of worlds
 /// and poses. Throws InvalidArgument if the plan does not list the agents of the instance in their
-/// order, or names a place or a task that does not exist.
+/// order, or contains a pose or a task that does not exist in the instance.
 GROVE_API std::vector<Violation> check(const Instance& instance, const Plan& plan,
                                        std::size_t limit = 20);
 /// Returns the errors in the plan and in the claims of a solution (status, cost and lower bound,
 /// against each other and omega), at most `limit`. It cannot verify the lower bound itself. Throws
-/// InvalidArgument as above.
+/// InvalidArgument like the overload above, and for an invalid omega.
 GROVE_API std::vector<Violation> check(const Instance& instance, const Solution& solution,
                                        std::size_t limit = 20);
 
@@ -121,11 +121,11 @@ GROVE_API Solution read_plan(const std::filesystem::path& path, const Instance& 
 /// Parses the text of a plan file like read_plan(). Throws InputError.
 GROVE_API Solution parse_plan(std::string_view text, const Instance& instance);
 /// Writes a plan file, completely or not at all. Throws InputError if the file cannot be written,
-/// and InvalidArgument if check() finds an error.
+/// and InvalidArgument if check() finds an error or throws InvalidArgument.
 GROVE_API void write_plan(const std::filesystem::path& path, const Instance& instance,
                           const Solution& solution);
-/// Returns the content of the file that write_plan() writes. Throws InvalidArgument if check()
-/// finds an error.
+/// Returns the content of the file that write_plan() writes. Throws InvalidArgument like
+/// write_plan().
 GROVE_API std::string plan_text(const Instance& instance, const Solution& solution);
 
 }  // namespace grove

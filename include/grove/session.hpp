@@ -49,7 +49,7 @@ class GROVE_API Session {
   /// replan(), or until a change() that affects it.
   Instance instance() const;
   /// Returns a valid plan of instance(). Returns std::nullopt if the session has had no plan yet,
-  /// or if a change made its plan invalid, until replan() finds a plan.
+  /// or if change() has reset it, until replan() finds a plan.
   std::optional<Plan> plan() const;
 
   /// Advances the session by `steps` >= 0 time steps along its plan. At the end of these steps each
@@ -63,11 +63,11 @@ class GROVE_API Session {
   /// because of another agent.
   void advance(int steps, const std::vector<Delay>& late = {});
 
-  /// Changes the instance. plan() is std::nullopt afterwards if the old plan is no longer valid;
-  /// the next replan() repairs it. Throws InvalidArgument and leaves the session unchanged if the
-  /// change is impossible: an agent is on a place to block or must go there, the place is blocked
-  /// already, or an id is taken or unknown. field() is "/new_tasks/<i>/...", "/dropped_tasks/<i>"
-  /// or "/blocked/<i>".
+  /// Changes the instance. plan() is std::nullopt afterwards if the old plan is no longer valid or
+  /// a task was dropped; the next replan() repairs the plan. Throws InvalidArgument and leaves the
+  /// session unchanged if the change is impossible: an agent is on a place to block or must go
+  /// there, the place is blocked already, or an id is taken or unknown. field() is
+  /// "/new_tasks/<i>/...", "/dropped_tasks/<i>" or "/blocked/<i>".
   void change(const Change& change);
 
   /// Returns the default options of replan() and `grove replan`: those of Options with a time limit
@@ -79,9 +79,9 @@ class GROVE_API Session {
   /// is ignored.
   ///
   /// An agent whose old plan ends on a visited task (see instance()) is first planned to end on one
-  /// of its remaining tasks. If that gives no plan, or only one that costs more than the old plan,
-  /// it keeps the end of the old plan as its destination; Solution::texts then lists its id under
-  /// "ends_of_old_plan".
+  /// of its remaining tasks. If that gives no plan, or only one that costs more than a still valid
+  /// old plan, a second search gives it the end of its old path as its destination. If the second
+  /// search finds a plan, Solution::texts lists the ids of these agents under "ends_of_old_plan".
   ///
   /// Throws what solve() throws, and InvalidArgument with field() "/commit" if `commit` < 0 or if a
   /// path is blocked before the committed steps end.

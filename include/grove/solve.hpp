@@ -28,7 +28,8 @@ struct Progress {
 /// 1024.
 GROVE_API int default_threads();
 /// Returns the default of Options::memory_limit in bytes: 80 % of the memory of the machine or, if
-/// a container or batch system sets a limit, of that limit; rounded down to a multiple of 10 MB.
+/// a container or batch system sets a limit, of that limit; rounded down to a multiple of 10 MB,
+/// but at least 10 MB.
 GROVE_API std::size_t default_memory_limit();
 
 /// Options of solve(). The defaults are those of `grove solve`: a plan within 1 % of optimal, or
@@ -56,11 +57,11 @@ struct Options {
   /// A valid plan of the instance: the first incumbent.
   std::optional<Plan> start = std::nullopt;
   /// Called with each better plan. Threads of the run call it and on_progress, one call at a time;
-  /// the calling thread does not search during the call. If the function throws, the run ends and
-  /// solve() rethrows the exception.
+  /// the thread that makes the call does not search during it. If the function throws, the run ends
+  /// and solve() rethrows the exception.
   std::function<void(const Plan&, const Progress&)> on_incumbent = {};
-  /// Called about every `progress_interval` seconds and at the end of the run, by the rules of
-  /// on_incumbent.
+  /// Called about every `progress_interval` seconds and at the end of the search (never if no
+  /// search is needed), by the rules of on_incumbent.
   std::function<void(const Progress&)> on_progress = {};
   double progress_interval = 0.1;  ///< Seconds, >= 0.
 };

@@ -56,7 +56,7 @@ enum class Heading : std::uint8_t {
   west,   ///< Left: towards smaller x.
 };
 
-/// Place and, if it turns (Agent::turn_steps > 0), heading of an agent.
+/// Place of an agent and, if the agent turns (Agent::turn_steps > 0), its heading.
 struct Pose {
   Place place = {};                                  ///< Place.
   std::optional<Heading> heading = std::nullopt;     ///< Set only for agents that turn.

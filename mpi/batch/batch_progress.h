@@ -33,7 +33,8 @@ struct BatchState {
 // instance is done yet.
 std::optional<double> seconds_left(const BatchState& state);
 
-// Example: "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 elapsed, about 4:10 left"
+// Returns the progress line, for example "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05
+// elapsed, about 4:10 left"
 ProgressText progress_text(const BatchState& state);
 
 }  // namespace grove::detail::batch

@@ -43,7 +43,7 @@ class FarmClient {
   // order. No other code may use these transports, so `options.solve` needs one of its own.
   // `interrupted` is the flag that this rank's signal handler sets and its search polls; the client
   // sets it when the master sends Stop. `master`: the master if this is rank 0, else nullptr. All
-  // arguments must outlive this object.
+  // arguments except `options` must outlive this object.
   FarmClient(Transport& world, Transport& group, std::atomic<bool>& interrupted,
              ClientOptions options, FarmMaster* master);
 

@@ -7,7 +7,7 @@
 namespace grove::detail::batch {
 namespace {
 
-constexpr double kCsvInterval_s = 10;  // between writes of the CSV file, which write all rows
+constexpr double kCsvInterval_s = 10;  // between writes of the CSV file; each writes all rows
 
 std::vector<Run> runs_of(const std::vector<Entry>& entries, const Settings& settings) {
   std::vector<Run> runs;

@@ -105,7 +105,7 @@ class FarmMaster {
   std::vector<Row> finished_;            // rows not yet on disk
   std::deque<int> asking_;               // leaders that wait for an assignment
   std::deque<FarmMessage> own_;          // messages for the leader on this rank
-  BatchState state_;                     // only the fields that count instances
+  BatchState state_;                     // without the fields that state() sets
   bool stopping_ = false;
   int dismissed_ = 0;
   double next_csv_s_ = 0;

@@ -39,12 +39,13 @@ struct ScalingRow {
   double coordinator_wait_s = 0;  // mean seconds from the arrival of a message to its handling
   // Load balance.
   double max_over_mean = 0;  // maximum / mean over ranks of the seconds spent on expansions
-  double idle_share = 0;     // fraction of the time of all workers
+  double idle_share = 0;     // idle time as a fraction of the time of all workers
   double first_node_s = 0;   // mean time at which a rank's worker started its first node
   std::int64_t ranks_without_node = 0;
 };
 
-// Compares `run` with `alone`, the run of a single rank.
+// Compares `run` with `alone`, the run of a single rank. If `alone` did not end, the fields that
+// compare the two runs stay 0.
 ScalingRow scaling_row(const SimulatedRun& run, const SimulatedRun& alone);
 
 // The column names, and the values of a row: comma-separated, without a line end.

@@ -25,8 +25,9 @@ struct Communication {
 // its receiver. One thread at a time.
 class TimedTransport : public Transport {
  public:
-  // All arguments must outlive this object. `communication` is the exchange in progress, whichever
-  // rank it is of. A message sent in it leaves when the exchange has taken `communication.takes_s`.
+  // All arguments must outlive this object. `communication` is the exchange in progress, which can
+  // be of any rank. A message sent in it leaves when the exchange has taken
+  // `communication.takes_s`.
   TimedTransport(SimulatedNetwork& network, int rank, const Machine& machine,
                  Communication& communication)
       : network_(network),

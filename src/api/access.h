@@ -47,7 +47,7 @@ struct Access {
 
 detail::Place place_of(const detail::Map& map, const Place& place, const std::string& field);
 Place public_place(const detail::Map& map, detail::Place place);
-// Poses of an agent with motion `motion`.
+// Poses of an agent whose motion is `motion`.
 detail::Pose pose_of(const detail::Map& map, detail::Motion motion, const Pose& pose,
                      const std::string& field);
 Pose public_pose(const detail::Map& map, detail::Motion motion, const detail::Pose& pose);

@@ -87,8 +87,8 @@ Progress Run::Observer::to_public(const detail::Progress& progress) const {
           .cost = progress.incumbent};
 }
 
-// Calls `tell`, which calls a user's callback. An exception of the callback must not pass through
-// the search, so this function stores it and ends the run.
+// Calls `function`, which calls a user's callback, unless a callback has thrown before. An
+// exception of the callback must not pass through the search, so it is stored and ends the run.
 template <class Function>
 void Run::Observer::call(Function&& function) {
   if (failure) return;

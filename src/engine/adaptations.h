@@ -12,14 +12,15 @@ namespace grove::detail {
 Solution solve_with_destinations(const Instance& instance, const SolveOptions& options,
                                  const Limits& limits, RunObserver& observer);
 
-// CTS-CBS-C: runs A (solve() on the instance itself) and, if A is stopped, B in the rest of the
-// time. A is stopped after two thirds of the time, or earlier if the memory limit is reached or,
-// with omega = inf, if its first tree holds no plan.
+// CTS-CBS-C: runs A (solve() on the instance itself) and, if A is stopped before a limit of the
+// whole run is reached, B in the rest of the time. A is stopped after two thirds of the time, or
+// earlier if the memory limit is reached or, with omega = inf, if its first tree holds no plan.
 Solution solve_with_destinations_last(const Instance& instance, const SolveOptions& options,
                                       const Limits& limits, RunObserver& observer);
 
 // CTS-CBS-C in the paper's alternative order: B for at most two thirds of the time, then A with B's
-// plan as its first incumbent.
+// plan, if any, as its first incumbent. A is not run if B's plan is within omega of the reported
+// bound, or if B proves that no plan exists.
 Solution solve_with_destinations_first(const Instance& instance, const SolveOptions& options,
                                        const Limits& limits, RunObserver& observer);
 

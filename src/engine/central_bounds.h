@@ -50,7 +50,7 @@ class CentralBounds : public SharedBounds {
   // Raises the lower bound to that of an earlier run, which this run resumes.
   void resume_at(Cost lower_bound);
   // Sets the lower bound on all trees not yet instantiated; kInfiniteCost: no such tree is left.
-  // Must be called after the roots of the instantiated trees were pushed.
+  // During the search, must be called after the roots of the instantiated trees were pushed.
   void expect_trees_from(Cost bound) { trees_from_ = bound; }
   Cost trees_from() const { return trees_from_; }
   // Ends the run although GlobalBounds::finished() is false, because no node is left and none will

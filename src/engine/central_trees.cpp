@@ -88,8 +88,8 @@ void CentralTrees::log_proof(const Node& root) const {
   options_.proof->tree(tree);
 }
 
-// Instantiates the next tree. The caller must hold growing_. If a call throws, the root stays
-// prepared.
+// Instantiates the next tree, if the forest has one. The caller must hold growing_. If a call
+// throws, the root stays prepared.
 void CentralTrees::grow() {
   if (!prepared_) prepared_ = forest_.next_root();
   const bool has_root = prepared_ != nullptr;

@@ -18,7 +18,7 @@
 namespace grove::detail {
 
 // Instantiates the next tree of a forest when GlobalBounds requires it, and pushes its root. When
-// no node is live but some were evicted, it pushes all roots again.
+// no node is live but some were evicted, it can push the roots again; see restart() in the .cpp.
 class CentralTrees : public TreeSource {
  public:
   // All arguments must outlive this object.
@@ -27,11 +27,13 @@ class CentralTrees : public TreeSource {
 
   // Must be called before the other functions, on one thread. resume_with() adds one tree of an
   // earlier run, after the forest has made the same tree and before the tree's nodes are pushed.
-  // begin(), called last, instantiates the first tree unless resume_with() added one.
+  // begin(), called last, instantiates the first tree unless resume_with() added one or the run is
+  // over.
   void resume_with(const NodePtr& root);
   void begin();
 
-  // Number of trees instantiated so far, with their roots pushed.
+  // Number of trees instantiated so far. Their roots have been pushed or pruned, except the roots
+  // passed to resume_with().
   std::int64_t count() const { return count_; }
   // Returns the records of the first `count` trees.
   std::vector<TreeRecord> records(std::int64_t count) const;
@@ -57,7 +59,7 @@ class CentralTrees : public TreeSource {
   RunEvents& run_events_;
 
   mutable std::mutex growing_;  // guards the forest and the non-atomic members below
-  std::vector<NodePtr> roots_;  // by the number of the tree
+  std::vector<NodePtr> roots_;  // by tree number
   NodePtr prepared_;            // root of the next tree if prepared, else nullptr
   Cost restarted_at_ = -1;      // evicted_bound() at the last restart; -1: none
   std::int64_t restarts_ = 0;

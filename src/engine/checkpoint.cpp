@@ -221,7 +221,7 @@ class CheckpointReader::Blocks {
 
   std::uint64_t left() const { return size_ - offset_; }
 
-  // Throws an InputError that says that the block read last is damaged.
+  // Throws an InputError that reports damage at the start of the block being read.
   [[noreturn]] void refuse(std::string_view what) const {
     throw InputError(path_.string(), fmt::format("byte {}", block_begin_),
                      fmt::format("is damaged: {}", what));

@@ -22,9 +22,9 @@ namespace grove::detail {
 
 // Everything in a checkpoint except the nodes.
 //
-// To resume under kFixed, the caller must check that the forest makes the same trees first, not
-// only the same number of trees. The sequencing back ends break ties differently. If the forest
-// skipped a number of trees, it could skip trees that were never instantiated, and then the lower
+// To resume under kFixed, the caller must check that the first trees of the forest are the trees
+// recorded here. Skipping trees_instantiated trees is not enough: the sequencing back ends break
+// ties differently, so the forest could skip trees that were never instantiated, and then the lower
 // bound would be wrong.
 struct CheckpointHeader {
   std::uint64_t fingerprint = 0;        // of the instance; see model/fingerprint.h
@@ -32,7 +32,7 @@ struct CheckpointHeader {
   std::optional<Plan> incumbent;        // by AgentIndex and TaskIndex of that instance
   Cost lower_bound = 0;                 // proven: no plan costs less
   Cost evicted_bound = kInfiniteCost;   // least bound of evicted nodes; kInfiniteCost: none
-  std::int64_t trees_instantiated = 0;  // trees made by the forest so far; >= trees.size()
+  std::int64_t trees_instantiated = 0;  // trees instantiated so far; >= trees.size()
   std::vector<TreeRecord> trees;        // by number; includes the tree of each node
   std::map<std::string, std::int64_t> counters;  // of all runs so far, by name: nodes_expanded, ...
   double seconds = 0;                            // duration of all runs so far
@@ -41,10 +41,10 @@ struct CheckpointHeader {
 // Returns the path of the checkpoint file in `directory`.
 std::filesystem::path checkpoint_file(const std::filesystem::path& directory);
 
-// Writes a checkpoint node by node, with a buffer of some hundred nodes. finish() replaces the
-// previous checkpoint; if it fails or is not called, the previous checkpoint remains. Throws
-// InputError with file and reason if the file cannot be written (no such directory, no permission,
-// full disk). For SIGXFSZ see io/atomic_file.h. One thread at a time.
+// Writes a checkpoint node by node, with a buffer of about 256 KiB. finish() replaces the previous
+// checkpoint; if it fails or is not called, the previous checkpoint remains. Throws InputError with
+// file and reason if the file cannot be written (no such directory, no permission, full disk). For
+// SIGXFSZ see io/atomic_file.h. One thread at a time.
 class CheckpointWriter {
  public:
   // `directory` must exist. Throws std::invalid_argument for the policy kAuto.
@@ -75,7 +75,8 @@ class CheckpointWriter {
 // the instance; Trees::add() and node_of() do. One thread at a time.
 class CheckpointReader {
  public:
-  // `fingerprint` and `policy`: the values expected in the file.
+  // `fingerprint` and `policy`: the values expected in the file. Throws std::invalid_argument for
+  // the policy kAuto.
   CheckpointReader(const std::filesystem::path& directory, std::uint64_t fingerprint,
                    Policy policy);
   ~CheckpointReader();

@@ -43,7 +43,7 @@ class Ends {
   const std::vector<TaskIndex>& tasks() const { return tasks_; }
 
   // Computes the costs of all ends that cost at most `reach` more than the best end. Returns false
-  // if a limit was reached.
+  // if a limit was reached, or if no sequence visits all tasks of the agent.
   bool extend(Time reach, const Limits& limits) {
     if (best_ == kNever && !find_best(limits)) return false;
     return all_known() || ends_.extend(std::min(best_ + reach, kNever - 1), limits);

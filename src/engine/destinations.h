@@ -21,10 +21,11 @@ struct Destinations {
   Cost bound = 0;
 };
 
-// Chooses distinct destinations, each at a task of its agent and not at another agent's
-// destination. The choice minimises the sum of the agents' best sequence costs that end there, plus
-// `visitor_steps` time steps for each other agent that must visit a chosen task. The method is at
-// the head of destinations.cpp. Returns nullopt if a limit was reached or if no such choice exists.
+// Chooses, for each agent without a destination, one of its tasks as its destination. The chosen
+// tasks are distinct, and none is at the destination of another agent. The choice minimises the sum
+// of the costs of the agents' best sequences that end on the chosen tasks, plus `visitor_steps`
+// time steps for each other agent that must visit a chosen task. The method is at the head of
+// destinations.cpp. Returns nullopt if a limit was reached or if no such choice exists.
 std::optional<Destinations> choose_destinations(const Problem& problem, Cost visitor_steps,
                                                 const Limits& limits);
 

@@ -6,8 +6,8 @@
 // without an incumbent the bound starts only after ten times lagrangian_start_work. With fewer than
 // lagrangian_min_agents agents the tree search gives the better bound, so the Lagrangian bound is
 // not tried. Otherwise the bound gets its share of the effort (lagrangian_max_share) until it
-// stops, either because it promises less than the proven bound or because it can gain no more. A
-// worker that has nothing else to do works on it in any case.
+// stops: it promises less than the proven bound, can gain no more, or has failed
+// (PricingJob::failed). A worker that has nothing else to do works on it in any case.
 //
 // With several ranks, rank 0 owns the bound, and the other ranks solve pricing problems for it.
 // They do so before all other work items, because the bound cannot continue without the subproblem

@@ -25,8 +25,8 @@ class LagrangianScheduler {
   // `tuning` must outlive this object. due() returns false until open() or help() is called.
   explicit LagrangianScheduler(const Tuning& tuning) : tuning_(tuning) {}
 
-  // Must be called before the search, where the bound is owned. `instance` must outlive this
-  // object. `keeps_reasons`: whether to record what log_proof() needs.
+  // Must be called before the search, on the rank that owns the bound. `instance` must outlive this
+  // object; `stops` is copied. `keeps_reasons`: whether to record what log_proof() needs.
   void open(const Instance& instance, const AgentStopsCache& stops, bool keeps_reasons);
 
   // Records `work` units of effort of the tree search and the primal search.
@@ -59,7 +59,8 @@ class LagrangianScheduler {
   // Returns the pricing requests to send now, each with its receiver.
   std::vector<std::pair<int, PricingRequest>> dispatch_pricing();
   // Takes the reply from `rank`. Returns the proven lower bound: no plan costs less. Throws
-  // std::invalid_argument if `rank` is no rank that can have a request.
+  // std::invalid_argument if `rank` cannot have a request, and what LagrangianBound::accept()
+  // throws.
   Cost accept(int rank, PricingReply answer);
   std::int64_t remote_pricings() const { return prices_of_ranks_; }
 

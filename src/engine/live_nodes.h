@@ -28,14 +28,15 @@ class LiveNodes {
 
   // Lower bound on all plans in live and in evicted nodes.
   virtual Cost bound() const = 0;
-  // Least bound of an evicted node; kInfiniteCost if none was evicted.
+  // Least bound of the nodes evicted since the last restart and not pruned; kInfiniteCost if there
+  // is none.
   virtual Cost evicted_bound() const = 0;
   // False only if no node is live.
   virtual bool any() const = 0;
   virtual Counts counts() const = 0;
 
   virtual void push(const NodePtr& root) = 0;
-  // Drops the nodes with a bound of at least `cost`, which must be the cost of a checked plan.
+  // Drops the open nodes with a bound of at least `cost`, which must be the cost of a checked plan.
   virtual void prune(Cost cost) = 0;
   // See Frontier::restart().
   virtual void restart(std::span<const NodePtr> roots, Cost proven) = 0;

@@ -5,8 +5,9 @@
 // Claim: every plan is in a written node, or in a tree not counted, or costs at least the bound of
 // an evicted node, or costs at least as much as the incumbent. Proof: a node disappears only after
 // the plan that it led to was posted, or because the incumbent pruned it. The incumbent is read
-// after the snapshot, so it costs at most as much as either plan. Nodes of trees instantiated after
-// the count are omitted, because a resumed run instantiates these trees again.
+// after the snapshot, so it costs at most as much as the posted plan and as the incumbent that
+// pruned the node. Nodes of trees instantiated after the count are omitted, because a resumed run
+// instantiates these trees again.
 #include "engine/local_checkpoints.h"
 
 #include <chrono>

@@ -7,7 +7,8 @@
 // before it takes this lock to look for parked workers. Hence either the parking worker sees the
 // node, or the pushing worker sees the parked one.
 //
-// A worker that finds no work item does not park in two cases:
+// Even if no work item has become available in the meantime, a worker that found none does not park
+// in two cases:
 // - No node is live. Then either the next tree is due or the run is over, and a worker must
 //   determine which of the two.
 // - All other workers are parked. With several ranks, nodes arrive from other ranks, and the

@@ -10,7 +10,8 @@
 
 namespace grove::detail {
 
-// Function that any worker thread calls between two work items, for instance to write a checkpoint.
+// Function that is called, on any thread, between two work items of a worker or between two rounds
+// (see run_deterministic()), for instance to write a checkpoint.
 using BetweenItems = std::function<void()>;
 
 // Runs the worker until the search is over.
@@ -18,7 +19,8 @@ void run_single_threaded(Worker& worker, const SharedSearch& shared,
                          const BetweenItems& between_turns);
 
 // Runs every worker on a thread of its own until the search is over, then cancels the work items in
-// progress. If a worker throws, rethrows its exception after all threads have stopped.
+// progress. If a worker throws std::bad_alloc, the run ends as at the memory limit. Any other
+// exception of a worker is rethrown after all threads have stopped.
 void run_parallel(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
                   const Limits& limits, const BetweenItems& between_turns);
 
@@ -27,7 +29,7 @@ inline constexpr int kDeterministicWorkers = 4;
 
 // Runs the workers in rounds: they choose work items one worker after the other, perform them
 // concurrently on up to `threads` threads, and commit them one worker after the other. Therefore
-// the result does not depend on `threads`.
+// the result does not depend on `threads`, unless a limit is reached.
 void run_deterministic(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
                        int threads, const BetweenItems& between_turns);
 

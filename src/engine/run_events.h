@@ -30,15 +30,15 @@ class RunEvents : public WorkObserver {
   void worked() override { event(RunEvent::kProgress); }
 
   void event(RunEvent event);
-  // Reports the lower bound if it exceeds the bound reported last.
+  // Reports the lower bound if it is finite and exceeds the bound reported last.
   void bound(Cost lower_bound);
-  // Calls `prove`, which raises the lower bound outside the tree search and returns it, and reports
-  // the bound. No other event is reported in between.
+  // Calls `prove`, which applies a bound proven outside the tree search and returns the lower
+  // bound, and reports that bound if it rose. No other event is reported in between.
   void prove_outside_trees(BoundSource by, const std::function<Cost()>& prove);
   void infeasible(std::string_view reason);
   // Treats `lower_bound` as reported. Must be called before the search.
   void bound_is_known(Cost lower_bound) { announced_bound_ = lower_bound; }
-  // Reports a new incumbent. Must be called before the nodes of higher cost are dropped.
+  // Reports a new incumbent. Must be called before the nodes that it prunes are dropped.
   void incumbent(const Plan& plan, PlanSource source);
   void root(const NodePtr& root);
   void checkpoint(const CheckpointReport& report);

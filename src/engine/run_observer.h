@@ -31,19 +31,20 @@ enum class RunEvent : std::uint8_t {
   kBound,      // the lower bound rose
   kTree,       // a new tree was instantiated
   kIncumbent,  // a better plan was found
-  kEnd,        // the search is over; reported once, as the last event
+  kEnd,        // the search is over; the last event; not reported if there was no search
 };
 
 // Observer of a run. The base class does nothing. The threads that run the search call it, one call
 // at a time. The calling thread does not search during the call, so functions should return
-// quickly. References are valid only during the call. Nodes must not be kept, because they live
-// only as long as the run.
+// quickly. References are valid only during the call. Nodes must not be kept after the end of the
+// run, because their memory belongs to the run.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
 
-  // A better plan was found. Called immediately before the kIncumbent event. An observer that saves
-  // plans should do so before it returns, so that a plan is on disk when it is announced.
+  // A better plan was found. If there is a search, the kIncumbent event follows, possibly after
+  // other events. An observer that saves plans should do so before it returns, so that a plan is on
+  // disk when it is announced.
   virtual void on_incumbent(const Plan& /*plan*/, PlanSource /*source*/,
                             const Progress& /*progress*/) {}
   virtual void on_event(RunEvent /*event*/, const Progress& /*progress*/) {}
@@ -68,8 +69,8 @@ class RunObserver {
 
   // For observers of trees and tests of the search (planted optimum): on_root() reports every root;
   // on_expanded() every expansion with its result and the number of the worker, from 0; on_pruned()
-  // the bound at or above which open nodes were dropped. In a distributed search only roots are
-  // reported.
+  // the bound at or above which open nodes are about to be dropped. In a distributed search neither
+  // on_expanded() nor on_evicted() is called.
   virtual void on_root(const NodePtr& /*root*/) {}
   virtual void on_expanded(const NodePtr& /*node*/, const Expansion& /*expansion*/,
                            int /*worker*/) {}

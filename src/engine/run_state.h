@@ -36,13 +36,14 @@ class RunState {
   // The agents' stops that were computed for the first tree; the workers' caches start with them.
   const AgentStopsCache& stops() const { return stops_; }
 
-  // Posts the start plan and instantiates the first tree. Must be called first, unless restore()
-  // is.
+  // Posts the start plan and instantiates the first tree. Must be called first, unless restore() is
+  // called instead.
   void begin();
   // Restores the data of a checkpoint and makes its trees again. Called instead of begin(). Returns
   // the roots by tree number; the caller must then push the nodes, record the evicted bound, and
   // call restored(). Returns nullopt if a limit was reached: then plan and bound are restored, and
-  // the run must not search. Throws InputError if the forest does not make the same trees first.
+  // the run must not search. Throws InputError if the first trees of the forest are not those of
+  // the checkpoint.
   std::optional<std::vector<NodePtr>> restore(const CheckpointHeader& header);
   void restored();
 

@@ -31,7 +31,7 @@ struct ProcessStatistics {
 struct RankStatistics {
   std::int64_t expanded = 0;
   std::int64_t open = 0;
-  std::optional<Cost> bound;  // nullopt: the rank holds no node
+  std::optional<Cost> bound;  // nullopt: no node is live on the rank
   std::int64_t memory = 0;    // resident memory of the process, in bytes
   std::int64_t low_level_calls = 0;
   std::int64_t branching_cost_queries = 0;

@@ -132,7 +132,8 @@ struct SolvedInstance {
   const Problem problem;
 };
 
-// True if presolve does not decide the instance, so that a search is needed.
+// True if a search is needed: no limit was reached during the computation of the distances, and
+// presolve does not prove infeasibility.
 bool is_searched(const Problem& problem) {
   return problem.distances.complete() && !presolve_infeasibility(problem);
 }
@@ -145,7 +146,7 @@ Solution unknown(const SolveOptions& options, const std::string& reason) {
 }
 
 // Returns a plan to start from: keeps the paths of the unaffected agents and re-plans the others.
-// Returns nullopt if the repair fails.
+// Returns nullopt if the repair fails or no search is needed.
 std::optional<Plan> start_from(const Plan& plan, const std::vector<bool>& affected,
                                const Problem& problem, const SolveOptions& options,
                                const Limits& limits) {

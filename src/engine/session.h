@@ -26,8 +26,8 @@ class Session {
 
   // The current instance, with time counted from 0.
   const Instance& instance() const;
-  // A valid plan of instance(). nullopt if the session has had no plan yet, or if a change
-  // invalidated it and no solve has found a plan since.
+  // A valid plan of instance(). nullopt if the session has had no plan yet, or if change() has
+  // reset it and no solve has found a plan since.
   const std::optional<Plan>& plan() const;
 
   // Advances by `steps` >= 0 time steps along the plan, which must exist. At the end of these steps
@@ -37,9 +37,9 @@ class Session {
   // unchanged.
   void advance(Time steps, std::span<const Delay> late = {});
 
-  // Adds or drops tasks and closes parts of the map. If the old plan is no longer valid, plan()
-  // becomes nullopt, but the next solve still starts from the old plan. Throws InstanceError
-  // (execution/change.h) and then leaves the session unchanged.
+  // Adds or drops tasks and closes parts of the map. If the old plan is no longer valid or a task
+  // was dropped, plan() becomes nullopt, but the next solve still starts from the old plan. Throws
+  // InstanceError (execution/change.h) and then leaves the session unchanged.
   void change(const InstanceChange& change);
 
   // Solves the current instance as grove::detail::solve() does. The search starts from the old
@@ -54,7 +54,8 @@ class Session {
   //
   // The instance is first solved without the destinations that agents have only because of the old
   // plan (execution/advance.h). If that finds no plan, or one that costs more than a still valid
-  // old plan, the agents keep these destinations, and texts["ends_of_old_plan"] lists their ids.
+  // old plan, a second search keeps these destinations. If the second search finds a plan,
+  // texts["ends_of_old_plan"] lists the ids of these agents.
   //
   // The independent checker has verified every plan, including those passed to `observer`. Throws
   // what solve() throws, InvalidPlan, and NotCommitted.

@@ -40,10 +40,12 @@ class SharedBounds {
   virtual Cost cutoff() const = 0;
   // Returns the incumbent if it costs less than `cost`, else nullopt.
   virtual std::optional<Plan> plan_below(Cost cost) const = 0;
-  // Proven lower bound: no plan costs less.
+  // Proven lower bound: no plan costs less. In a process that does not know the bound of the run,
+  // it bounds only the plans in the nodes of that process.
   virtual Cost lower_bound() const = 0;
 
-  // Offers a plan. It becomes the incumbent if it is valid and better than the current one.
+  // Offers a plan. If it is better than the incumbent, it is checked and becomes the incumbent.
+  // Where the bounds are held, throws std::logic_error if the checker refuses the plan.
   virtual void post(Plan plan, PlanSource source) = 0;
   // Reports a lower bound proven outside the tree search on all plans that cost less than cutoff()
   // at the time of the proof. kInfiniteCost: no such plan exists.

@@ -21,7 +21,7 @@ namespace grove::detail {
 
 // Supplies trees when they are due. CentralTrees implements it in the process that owns the trees;
 // this base class, for other processes, supplies none. Thread-safe. No function waits for another
-// thread.
+// thread: while one thread supplies a tree, the calls of other threads do nothing.
 class TreeSource {
  public:
   TreeSource() = default;

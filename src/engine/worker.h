@@ -59,10 +59,10 @@ class Worker {
   }
 
   // The four parts of turn(). choose() selects an item and returns nullopt if none is available.
-  // perform() does the work of the item and only reads shared data. publish() merges the item's new
-  // cache entries into the shared cache. commit() posts the item's results. Several items that
-  // expand nodes can be performed concurrently, each by a different expander. publish() is
-  // thread-safe.
+  // perform() does the work of the item; for an item that expands a node or assists, it only reads
+  // shared data. publish() merges the item's new cache entries into the shared cache. commit()
+  // posts the item's results. Several items that expand nodes can be performed concurrently, each
+  // by a different expander. publish() is thread-safe.
   std::optional<WorkItem> choose();
   void perform(WorkItem& turn, Expander& by);
   static void publish(WorkItem& turn);

@@ -50,8 +50,8 @@ FinishTimePair FinishTimeConflicts::extended(FinishTimePair pair, const Limits& 
   return pair;
 }
 
-// Tests the paths that finish exactly `later_a` and `later_b` steps after OfAgent::least of their
-// agents.
+// Tests the paths that finish exactly `later_a` and `later_b` steps after OfAgent::earliest of
+// their agents.
 FinishTimeConflicts::Verdict FinishTimeConflicts::compared(const FinishTimePair& pair, Time later_a,
                                                            Time later_b, const Limits& limits) {
   const Mdd* const a = mdd(pair.a, later_a, limits);

@@ -57,8 +57,8 @@ class FinishTimeConflicts {
   struct OfAgent {
     std::unique_ptr<SequenceStages> goals;
     Time earliest = 0;  // a lower bound on the finish time
-    // By finish time - least: the MDD; nullptr if it could not be built within the limits; empty if
-    // no path finishes exactly at that time.
+    // By finish time minus `earliest`: the MDD; nullptr if it could not be built within the limits;
+    // empty if no path finishes exactly at that time.
     std::vector<std::unique_ptr<Mdd>> mdds;
   };
 

@@ -42,7 +42,7 @@ constexpr std::size_t kBytesOfMark = 16;
 constexpr std::int64_t kFirstLabels = 2000;               // per agent, assumed before its first job
 constexpr std::int64_t kStepsPerWork = 32;                // path steps counted per unit of work
 constexpr int kRoundsPerDualSolution = 4;                 // see store_dual_solution()
-constexpr double kMinDistance = 0.02 * Penalties::kUnit;  // shorter ways gain nothing
+constexpr double kMinDistance = 0.02 * Penalties::kUnit;  // a smaller level distance gains nothing
 
 }  // namespace
 
@@ -266,7 +266,8 @@ int LagrangianBound::accept(int helper, PricingReply answer) {
   return counted;
 }
 
-// One job performs a part of this, because testing a pair of finish times is expensive.
+// Performs a part of the computation between two rounds; the next job continues it. It is divided
+// into jobs because testing a pair of finish times is expensive.
 void LagrangianBound::end_round(Job& job, Cost cutoff, Cost known, const Limits& limits) {
   if (!is_counted_) {
     separate_conflict_rows();

@@ -27,8 +27,9 @@ namespace grove::detail {
 // methods for helpers are called by one thread at a time.
 class LagrangianBound {
  public:
-  // Returns nullptr if an agent has too many stops, because its search stores a mark for each state
-  // and each subset of stops. `instance` and `tuning` must outlive the result; `stops` is copied.
+  // Returns nullptr if an agent has more than ten stops, or too many for the size of the world: its
+  // search stores a mark for each state and each subset of stops. `instance` and `tuning` must
+  // outlive the result; `stops` is copied.
   static std::unique_ptr<LagrangianBound> make(const Instance& instance,
                                                const AgentStopsCache& stops, const Tuning& tuning);
 
@@ -40,8 +41,8 @@ class LagrangianBound {
   std::optional<Job> next();
   bool has_jobs() const;
   // Performs a job. `cutoff`: plans of this cost or more are of no interest. `known`: a proven
-  // lower bound on every plan. If memory runs out, the bound ends when the job is committed, and
-  // lower_bound() keeps its value.
+  // lower bound on every plan. If memory runs out or a penalty would exceed its maximum, the bound
+  // ends when the job is committed, and lower_bound() keeps its value.
   void perform(Job& job, Pricer& pricer, Cost cutoff, Cost known, const Limits& limits);
   void commit(Job job);
 
@@ -57,8 +58,9 @@ class LagrangianBound {
   // too little work left in this round. The caller must send them.
   std::vector<DispatchedRequest> dispatch_pricing();
   // Processes a helper's reply. Uses a value only if the round and the multipliers are still those
-  // of the request and the agent has no value yet. Returns the number of values used. Throws
-  // std::invalid_argument if the agents were not requested.
+  // of the request and the agent has no value yet. Returns the number of values used. Returns 0 for
+  // a reply that is late. Throws std::invalid_argument if a current reply has agents that were not
+  // requested.
   int accept(int helper, PricingReply answer);
 
   // From now on, records the multipliers that prove lower_bound(). Call it before the first job.
@@ -117,7 +119,7 @@ class LagrangianBound {
   TargetLevelStep ascent_;
   std::vector<Path> paths_;                // by agent: the best path found; empty: none
   std::vector<ScaledCost> values_;         // by agent
-  std::vector<std::int64_t> labels_;       // by agent: labels per agent in its last job
+  std::vector<std::int64_t> labels_;       // by agent: mean labels per agent of its last job
   std::vector<FinishTimePair> colliding_;  // events still to be tested in this round
   bool is_counted_ = false;                // occupancy_ contains the paths of this round
   std::int64_t next_dual_solution_round_;  // first round that may store the next dual solution

@@ -57,8 +57,8 @@ class Multipliers {
   // The update for a copy that has the first known.size() rows, with the multipliers `known`. Sets
   // `known` to the current multipliers.
   MultiplierUpdate update_for(std::vector<Amount>& known) const;
-  // Applies an update. Throws std::invalid_argument if the update is malformed or not for this
-  // state of the copy; it may then be applied in part.
+  // Applies an update. Throws std::invalid_argument if the update is malformed or cannot be for
+  // this state of the copy; it may then be applied in part.
   void apply(const MultiplierUpdate& update);
 
  private:

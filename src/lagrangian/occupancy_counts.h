@@ -34,9 +34,10 @@ class OccupancyCounts {
   int at(Place place, Time time) const {
     return time < end_ ? counts_[index(place, time)] : counts_[index(place, end_ - 1)];
   }
-  // The collisions at each time >= 1. On a place with several agents, each agent forms a collision
-  // with the agent of next lower index there. An agent that swaps places with agents of lower index
-  // forms a collision with the lowest of these. The order of the result depends only on the paths.
+  // The collisions at each time >= 1. On a place with several agents, each agent except the first
+  // forms a collision with the agent of the next lower index there. An agent that swaps places with
+  // agents of lower index forms a collision with the lowest of these. The order of the result
+  // depends only on the paths.
   std::vector<Collision> collisions() const;
 
  private:

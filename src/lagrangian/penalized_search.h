@@ -93,7 +93,7 @@ class PenalizedSearch {
   std::vector<std::vector<Mark>> marks_;  // by stage, then state
   std::uint32_t stamp_ = 0;
   std::vector<Label> labels_;                                 // in ascending order of time
-  std::vector<std::pair<Place, std::vector<Amount>>> rests_;  // penalty by time of arrival for rest
+  std::vector<std::pair<Place, std::vector<Amount>>> rests_;  // penalty of rest by arrival time
   std::vector<Amount> end_bounds_;                            // see compute_end_bounds()
   std::int64_t labels_created_ = 0;
 

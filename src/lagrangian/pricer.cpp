@@ -32,9 +32,9 @@ SequenceStages& Pricer::goals(AgentIndex agent) {
   return *goals_[agent];
 }
 
-// Computes the value of an agent of which no path is known whose cost could serve as the cutoff.
-// Tries increasing cutoffs, starting one step above the least cost without penalties, because
-// hardly any value is much higher.
+// Computes the value of an agent without a known path, so that no known cost can serve as the
+// cutoff. Tries increasing cutoffs, starting one step above the least cost without penalties,
+// because hardly any value is much higher.
 ScaledCost Pricer::first_value(AgentIndex agent, const Limits& limits, Path& path) {
   const ScaledCost least = ScaledCost{min_cost(goals(agent), limits)} * Penalties::kUnit;
   ScaledCost price = 0;

@@ -25,7 +25,7 @@ struct PricingJob {
   std::vector<ScaledCost> values;
   std::vector<Path> paths;  // empty: no path cheaper than `known` was found
   std::int64_t work = 0;    // effort, in the unit of search/work.h
-  bool failed = false;      // memory ran out, so the results are not valid
+  bool failed = false;      // memory ran out or a penalty was too great: the results are not valid
 };
 
 // Messages between processes: a request for the subproblem values of consecutive agents, and the
@@ -55,7 +55,8 @@ class Pricer {
       : multipliers_(multipliers), stops_(stops), search_(multipliers.penalties()) {}
 
   // Computes the subproblem value of each agent of the job, which is a proven lower bound on the
-  // penalised cost of every path of the agent. It is exact unless a limit was reached.
+  // penalised cost of every path of the agent. It is exact unless a limit was reached (`limits`, or
+  // the maximum number of labels or cost of a search).
   void perform(PricingJob& job, const Limits& limits);
 
  private:

@@ -39,7 +39,7 @@ class RemotePricing {
   mutable std::mutex mutex_;
   std::optional<PricingRequest> share_;  // current request; mutex_ guards it and all below
   PricingReply answer_;
-  std::size_t next_ = 0;  // position in the request of the next job
+  std::size_t next_ = 0;  // position of the next job in the request
   std::size_t done_ = 0;
 };
 

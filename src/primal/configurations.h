@@ -49,8 +49,8 @@ class RowBlocks {
   std::vector<std::unique_ptr<T[]>> blocks_;
 };
 
-// A hash set of configurations, numbered in the order of insertion. A configuration is one Standing
-// per agent. One thread at a time.
+// A hash set of configurations, numbered in the order of insertion. A configuration is one
+// AgentState per agent. One thread at a time.
 class Configurations {
  public:
   using Id = std::int32_t;
@@ -62,7 +62,7 @@ class Configurations {
 
   // Inserts `places` and returns its number, which is count() - 1 if it is new.
   Id insert(std::span<const AgentState> places);
-  // Maximum number of bytes that the next insert() allocates.
+  // Maximum number of bytes that the next insert() allocates for rows and slots.
   std::size_t growth() const;
 
  private:

@@ -25,7 +25,8 @@ class Lacam {
   Lacam(const Lacam&) = delete;
   Lacam& operator=(const Lacam&) = delete;
 
-  // Makes at most `steps` joint steps, and subtracts their number from `steps`.
+  // Makes at most `steps` joint steps, failed attempts included, and subtracts their number from
+  // `steps`.
   Outcome run(const Limits& limits, std::int64_t& steps);
   const std::optional<Plan>& plan() const { return plan_; }
   std::int64_t configurations() const { return configurations_.count(); }

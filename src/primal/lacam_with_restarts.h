@@ -34,7 +34,7 @@ class LacamWithRestarts {
   // that it passes earlier count as visited. An agent without a destination heads for the last stop
   // of its sequence to rest there. Every complete sequence is accepted; good ones yield good plans
   // (visit_orders.h). `problem` must outlive this object. Throws std::invalid_argument if an order
-  // is not complete.
+  // is missing or not complete.
   LacamWithRestarts(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed,
                     std::int64_t first_steps = Tuning().lacam_first_steps);
   ~LacamWithRestarts();

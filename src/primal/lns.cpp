@@ -109,8 +109,8 @@ Cost LargeNeighborhoodSearch::worse_allowed(Cost cost) {
   return std::max<Cost>(0, best_ + static_cast<Cost>(more + random_.unit()) - cost);
 }
 
-// Plans the agents in this order, with total cost at most `cutoff`. Returns false if a low-level
-// call fails; some agents then have new paths.
+// Plans the agents in this order, with total cost at most `total_cutoff`. Returns false if a
+// low-level call fails; some agents then have new paths.
 bool LargeNeighborhoodSearch::replan(const std::vector<AgentIndex>& agents, Cost total_cutoff,
                                      RepairOperator& repair, const Limits& limits) {
   Cost left = total_cutoff;

@@ -45,8 +45,8 @@ class LargeNeighborhoodSearch {
 
  private:
   // Repair operator: a way to re-plan one agent. It searches exactly, greedily, or for least
-  // penalised cost (only with a dual solution). choose_repair() selects by its statistics, which
-  // are decaying sums.
+  // penalised cost (only with a dual solution). choose_repair() mostly selects an operator by its
+  // statistics, which are decaying sums.
   struct RepairOperator {
     int inflation_percent;
     bool priced;

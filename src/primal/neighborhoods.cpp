@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The destroy operators:
 // - kAgentBased: an agent whose path costs more than its individual path, drawn with a probability
-//   proportional to the difference, and the agents that block its individual path or that path with
-//   a delay.
+//   proportional to the difference, and agents that block its individual path, or the individual
+//   path of an agent chosen so far with a delay.
 // - kRandom: random agents.
 // - kMapBased: agents that pass near a random place at about the same time.
 // - kReducedCost, only with a dual solution: an agent whose penalised path cost exceeds its
 //   subproblem value, drawn with a probability proportional to the difference (the reduced cost),
-//   and the agents that block the path with that value. In contrast to kAgentBased, this operator
-//   does not select an agent that is delayed only because all others would be delayed otherwise:
-//   its reduced cost is 0.
+//   and agents that block the path with that value, or such a path of an agent chosen so far with a
+//   delay. In contrast to kAgentBased, this operator does not select an agent that is delayed only
+//   because all others would be delayed otherwise: its reduced cost is 0.
 #include "primal/neighborhoods.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ constexpr std::int64_t kMaxGrowth = 4;  // maximum factor of this growth
 constexpr double kDestroyDecay = 0.99;  // decay factor of the operators' weights per iteration
 // Approximate probability of an operator without gain.
 constexpr double kDestroyMinProbability = 0.02;
-constexpr int kAgentBasedTries = 8;  // tries to fill an agent-based neighbourhood
+constexpr int kAgentBasedTries = 8;  // tries to fill a kAgentBased or kReducedCost neighbourhood
 constexpr Time kMapBasedWindow = 8;  // time steps before and after the chosen time
 
 // Blocking agents are sought for paths of the dual solution with delays of 0 to kLate - 1 steps.

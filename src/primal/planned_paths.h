@@ -65,10 +65,10 @@ class PlannedPaths {
   std::int64_t steps_moved_ = 0;
 };
 
-// Calls visit(other) for each planned agent other than `agent` that collides with it if it makes
-// each move of `path` `late` steps later and then rests. Collisions on its start before the first
-// move are not reported. Can call visit() more than once for an agent. Stops when visit() returns
-// false.
+// Calls visit(other) for each planned agent `other` that would collide with `agent` if `agent` made
+// each move of `path` `late` steps later and then rested. Collisions at the start of `path` before
+// its first move are not reported. Can call visit() more than once for an agent. Stops when visit()
+// returns false.
 template <class Visit>
 void for_each_blocking_agent(const World& world, const ReservationTable& reservations,
                              AgentIndex agent, const Path& path, Time late, Visit visit) {

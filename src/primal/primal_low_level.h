@@ -25,7 +25,7 @@ class PrimalLowLevel {
 
   // Individual planning: finds the agent's best path without the other agents, or a good path if
   // the agent has too many sequences to find the best one. Must be called for an agent before any
-  // other function. Returns false if a limit was reached.
+  // other function is used for it. Returns false if a limit was reached.
   bool plan_individually(AgentIndex agent, const Limits& limits);
 
   // Finds a path of the agent; see FreeOrderSipp::find().

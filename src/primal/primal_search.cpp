@@ -5,7 +5,7 @@
 // *Rounds.* LNS improves a plan quickly at first and then stalls in a local optimum; different
 // seeds end in different optima. Therefore a new round starts, with prioritised planning, when LNS
 // has spent as much effort without success as the round took to reach its best plan, and has made
-// at least kStallNeighborhoods iterations.
+// at least max(kStallNeighborhoods, kStallNeighborhoodsPerAgent * agents) iterations since then.
 //
 // *Definition.* W is the effort of individual planning for all agents (meeting_work_).
 //

@@ -18,7 +18,8 @@
 namespace grove::detail {
 
 // Finds a first plan by prioritised planning, interleaved with LaCAM if planning takes long (only
-// with Technique::kLacam). Improves the plan by large neighbourhood search, and starts again with a
+// with Technique::kLacam, and if the instance permits following). Improves the plan by large
+// neighbourhood search, an expensive plan first by traffic-guided LaCAM, and starts again with a
 // different agent order when that stalls. The schedule is at the head of primal_search.cpp. Works
 // in small steps, so that its thread can do other work in between. Deterministic: the same seed,
 // steps, adopted plans and dual solutions yield the same plans, unless a limit is reached. One
@@ -48,11 +49,12 @@ class PrimalSearch {
   PlanSource source() const;
 
   // Makes the search continue from `plan`, which must be valid, for cheaper plans. Ignored unless
-  // `plan` is cheaper than all plans returned or adopted before.
+  // `plan` costs less than best_cost().
   void adopt(const Plan& plan);
 
   // Sets the dual solution that guides large neighbourhood search. Ignored if it is nullptr or the
-  // current one, or if the best plan costs more than (1 + lagrangian_lns_max_gap) times its bound.
+  // current one, if there is no plan yet, or if the best plan costs more than (1 +
+  // lagrangian_lns_max_gap) times the bound of the dual solution.
   void use(std::shared_ptr<const DualSolution> dual_solution);
 
   // Cost of the cheapest plan that was returned, adopted, or found and not yet returned. Returns
@@ -60,9 +62,9 @@ class PrimalSearch {
   std::optional<Cost> best_cost() const;
   // True if a plan, or a much cheaper plan, is likely to be found soon. Without a plan this is so
   // while LaCAM has not failed and has made fewer than kLacamExpectedSteps steps. With a plan it is
-  // so while prioritised planning of the first round, or traffic-guided LaCAM, has spent less
-  // effort than the root of the tree takes (estimate: head of primal_search.cpp). Always false
-  // without LaCAM.
+  // so while prioritised planning of the first round, or traffic-guided LaCAM, is in progress and
+  // has spent less effort than the root of the tree takes (estimate: head of primal_search.cpp).
+  // Always false without LaCAM, after LaCAM has failed, and if optimal().
   bool expects_plan() const;
   // True if the best plan is proven to be optimal, because each agent's path costs as little as the
   // agent's optimal path without the other agents.

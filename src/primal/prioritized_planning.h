@@ -13,9 +13,9 @@
 
 namespace grove::detail {
 
-// Plans the agents in an order, each around the agents planned before it. Restarts with a different
-// order when it finds no path for an agent. The head of the .cpp describes the choice of the order.
-// One thread at a time.
+// Plans the agents in an order, each around the agents planned before it. When it finds no path for
+// an agent, it restarts with a different order or re-plans the agents in the way; see the head of
+// the .cpp. One thread at a time.
 class PrioritizedPlanning {
  public:
   enum class Outcome : std::uint8_t {

@@ -3,8 +3,9 @@
 // around the agents that have one. If no path exists, or none is found within the label limit, the
 // paths of the agents that block its individual path are removed, and these agents are appended to
 // the queue. Two agents that enclose each other could alternate forever. Therefore, after many
-// failures, the agents that block the individual path with a delay are removed, too, and the number
-// of failures is limited.
+// failures, the agents that block the individual path with a random delay are removed, too, and the
+// number of failures is limited. The delayed path is also used if no agent blocks the individual
+// path itself; if no agent blocks the delayed path either, a few random agents are removed.
 #include "primal/repair.h"
 
 #include <algorithm>

@@ -15,10 +15,10 @@ namespace grove::detail {
 
 // Plans the agents that have no path around the agents that have one. `paths`, by AgentIndex: empty
 // for an agent to be planned; the other paths must be valid for `problem` and must not collide. If
-// no path is found for an agent, only the agents that block its individual path are re-planned too,
-// so that few agents get new paths. Heuristic: returns nullopt after a number of failures, which
-// proves nothing, or if a limit was reached. Deterministic: the same seed yields the same plan,
-// unless a limit is reached.
+// no path is found for an agent, the agents that block its individual path are re-planned, too, and
+// other agents only if that is not enough, so that few agents get new paths. Heuristic: returns
+// nullopt after a number of failures, which proves nothing, or if a limit was reached.
+// Deterministic: the same seed yields the same plan, unless a limit is reached.
 std::optional<Plan> repaired(const Problem& problem, AgentStopsCache& stops,
                              const std::vector<Path>& paths, std::uint64_t seed,
                              const Limits& limits);

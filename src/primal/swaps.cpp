@@ -84,7 +84,7 @@ bool Swaps::is_plugged(State cell, std::span<const AgentState> from) const {
          agents_[there].may_rest(from[there].stage, cell);
 }
 
-// Returns the number of ways on from pair.front, and sets `way` to one of them.
+// Returns the number of ways on from pair.front, and sets `way` to one of them, if there is one.
 int Swaps::ways_on(Pair pair, std::span<const AgentState> from, State& way) const {
   int ways = 0;
   for (State cell : world_.neighbors(pair.front)) {

@@ -30,7 +30,8 @@ class Traffic {
   void update_edge_costs();
 
   // Returns the least cost from each state to a state with distance 0 in `distance`, congestion
-  // included, in units of 1 / kStep step; kNever if there is no path. O(states).
+  // included, in units of 1 / kStep step; kNever if there is no path. Takes time proportional to
+  // the number of moves plus the greatest finite cost.
   DistanceField field(DistanceView distance);
 
  private:

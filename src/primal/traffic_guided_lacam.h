@@ -38,8 +38,8 @@ class TrafficGuidedLacam {
 
   // Adds the traffic of `plan` and starts a round.
   void learn(const Plan& plan);
-  // Continues the round for at most `slice` joint steps. learn() must have been called. After
-  // kFailed, starts another round.
+  // Continues the round for an effort of about `slice` (unit: work()). learn() must have been
+  // called. After kFailed, starts another round.
   Outcome run(const Limits& limits, std::int64_t slice);
 
   const Plan& plan() const { return plan_; }
