@@ -52,7 +52,7 @@ ParentLink::ParentLink(Transport& transport, const Hierarchy& hierarchy, Endpoin
     : transport_(transport),
       to_(hierarchy.parent(post)),
       pause_(kPause + kPausePerSibling * hierarchy.children(to_)),
-      said_(std::move(first)) {}
+      last_sent_(std::move(first)) {}
 
 void ParentLink::send(const message::Message& message) {
   transport_.send(to_.rank, message::bytes_of(message, to_.level));
@@ -63,25 +63,25 @@ void ParentLink::send(const message::Message& message) {
 // more than doubled since the last report, because other ranks wait for nodes while few ranks have
 // any.
 bool ParentLink::is_urgent(const message::Status& status) const {
-  const bool has_more = !status.surplus.empty() && status.open / 2 > 2 * (said_.open / 2);
-  return has_more || !status.taken.empty() || status.assigned != said_.assigned ||
-         status.epoch != said_.epoch || status.bound != said_.bound ||
-         status.proven != said_.proven || status.stopped != said_.stopped ||
-         status.live != said_.live || has_idle(status) != has_idle(said_);
+  const bool has_more = !status.surplus.empty() && status.open / 2 > 2 * (last_sent_.open / 2);
+  return has_more || !status.taken.empty() || status.assigned != last_sent_.assigned ||
+         status.epoch != last_sent_.epoch || status.bound != last_sent_.bound ||
+         status.proven != last_sent_.proven || status.stopped != last_sent_.stopped ||
+         status.live != last_sent_.live || has_idle(status) != has_idle(last_sent_);
 }
 
 bool ParentLink::report(message::Status status, double now) {
   reports_at_ = kNoReport;
-  if (!urgent_ && status == said_) return false;
-  const double next = said_at_ + pause_at(said_at_, pause_);
+  if (!urgent_ && status == last_sent_) return false;
+  const double next = last_sent_at_ + pause_at(last_sent_at_, pause_);
   if (!urgent_ && !is_urgent(status) && now < next) {
     reports_at_ = next;
     return false;
   }
   send(status);
-  said_ = std::move(status);
-  said_.taken.clear();
-  said_at_ = now;
+  last_sent_ = std::move(status);
+  last_sent_.taken.clear();
+  last_sent_at_ = now;
   urgent_ = false;
   return true;
 }

@@ -68,9 +68,9 @@ class ParentLink {
 
   Transport& transport_;
   const Endpoint to_;
-  const double pause_;    // seconds
-  message::Status said_;  // last status sent
-  double said_at_ = -1;
+  const double pause_;         // seconds
+  message::Status last_sent_;  // last status sent
+  double last_sent_at_ = -1;
   double reports_at_ = std::numeric_limits<double>::infinity();
   bool urgent_ = false;
 };

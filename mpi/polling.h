@@ -17,11 +17,11 @@ namespace grove::detail {
 constexpr double kMaxPollInterval_s = 4e-3;
 constexpr double kMinPollInterval = 1.0 / 16;  // as a fraction of the maximum interval
 
-// Returns the maximum poll interval in seconds: `of_who_searches` during the search, and a shorter
+// Returns the maximum poll interval in seconds: `search_interval` during the search, and a shorter
 // one after its end, because then no thread can be disturbed and the job waits for the remaining
 // messages.
-inline double max_poll_interval(bool has_ended, double of_who_searches = kMaxPollInterval_s) {
-  return has_ended ? of_who_searches * kMinPollInterval : of_who_searches;
+inline double max_poll_interval(bool has_ended, double search_interval = kMaxPollInterval_s) {
+  return has_ended ? search_interval * kMinPollInterval : search_interval;
 }
 
 // Returns the time of the first poll at or after `time` by a rank that received its last message at

@@ -33,13 +33,13 @@ FarmClient::FarmClient(Transport& world, Transport& group, std::atomic<bool>& in
 
 void FarmClient::run() {
   if (group_.rank() == kLeader) {
-    run_as_master();
+    run_as_leader();
   } else {
     follow();
   }
 }
 
-void FarmClient::run_as_master() {
+void FarmClient::run_as_leader() {
   while (const std::optional<Entry> entry = next_entry()) {
     tell_members(Assignment{*entry});
     Row row = solve(*entry);

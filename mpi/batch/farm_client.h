@@ -52,7 +52,7 @@ class FarmClient {
   void run();
 
  private:
-  void run_as_master();
+  void run_as_leader();
   void follow();
   std::optional<Entry> next_entry();
   Row solve(const Entry& entry);

@@ -10,14 +10,14 @@ MddCache::Set MddInterner::one_of(const MddCache::Set& set) {
   const auto [first, end] = sets_.equal_range(hash);
   for (auto at = first; at != end; ++at)
     if (auto other = at->second.lock(); other && *other == *set) return other;
-  if (sets_.size() >= many_) forget_unused();
+  if (sets_.size() >= cleanup_size_) forget_unused();
   sets_.emplace(hash, set);
   return set;
 }
 
 void MddInterner::forget_unused() {
   std::erase_if(sets_, [](const auto& entry) { return entry.second.expired(); });
-  many_ = 2 * sets_.size() + 1000;
+  cleanup_size_ = 2 * sets_.size() + 1000;
 }
 
 void SimulatedWorker::begin(double now, Expander& expander) {

@@ -29,7 +29,7 @@ class MddInterner {
   void forget_unused();
 
   std::unordered_multimap<std::uint64_t, std::weak_ptr<const Mdd>> sets_;  // by hash
-  std::size_t many_ = 1000;
+  std::size_t cleanup_size_ = 1000;
 };
 
 // Runs a worker's work items on a simulated clock. The results of an item become visible to other

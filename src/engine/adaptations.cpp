@@ -214,7 +214,7 @@ bool is_within_omega(const Solution& solution) {
 // Merges the results of two searches. The end of the second search is reported as the end of the
 // run, with one exception: if the second search proved only that its chosen destinations admit no
 // plan, the limit that stopped the first search is reported.
-Solution both(const Solution& first, Solution second) {
+Solution merged_result(const Solution& first, Solution second) {
   if (second.status == Status::kInfeasible) return second;
   auto& texts = second.stats.texts;
   if (!second.plan && !was_stopped(second) && was_stopped(first))
@@ -245,7 +245,7 @@ Solution solve_with_destinations_last(const Instance& instance, const SolveOptio
   const Limits part(limits, kShareOfFirst * limits.seconds_left());
   Solution solution = solve_a(instance, options, part, merged);
   if (was_stopped(solution) && !limits.stop_requested())
-    solution = both(solution, solve_b(instance, options, limits, observer, merged));
+    solution = merged_result(solution, solve_b(instance, options, limits, observer, merged));
   merged.end();
   return solution;
 }
@@ -259,7 +259,7 @@ Solution solve_with_destinations_first(const Instance& instance, const SolveOpti
   if (!is_final && !limits.stop_requested()) {
     SolveOptions from_there = options;
     from_there.start = solution.plan;
-    solution = both(solution, solve_a(instance, from_there, limits, merged));
+    solution = merged_result(solution, solve_a(instance, from_there, limits, merged));
   }
   merged.end();
   return solution;

@@ -29,9 +29,9 @@ constexpr double kMaxLocalRatio = 4;  // max. Lagrangian effort per unit of othe
 }  // namespace
 
 void LagrangianScheduler::open(const Instance& instance, const AgentStopsCache& stops,
-                               bool keeps_reasons) {
+                               bool records_best_multipliers) {
   instance_ = &instance;
-  records_best_multipliers_ = keeps_reasons;
+  records_best_multipliers_ = records_best_multipliers;
   stops_.emplace(stops);
   is_over_ = instance.agent_count() < tuning_.lagrangian_min_agents;
 }
@@ -126,7 +126,7 @@ std::vector<std::pair<int, PricingRequest>> LagrangianScheduler::dispatch_pricin
   LagrangianBound* const bound = is_over_ ? nullptr : this->bound();
   if (bound == nullptr) return requests;
   for (auto& [helper, work, request] : bound->dispatch_pricing()) {
-    own_ += asked_of_[static_cast<std::size_t>(helper + 1)] = work;
+    own_ += expected_work_[static_cast<std::size_t>(helper + 1)] = work;
     requests.emplace_back(helper + 1, std::move(request));
   }
   return requests;
@@ -136,8 +136,8 @@ Cost LagrangianScheduler::accept(int rank, PricingReply answer) {
   LagrangianBound* const bound = this->bound();
   if (bound == nullptr || rank < 1 || rank >= ranks_)
     throw std::invalid_argument("pricing result: the rank has no outstanding request");
-  own_ += answer.work - asked_of_[static_cast<std::size_t>(rank)];
-  prices_of_ranks_ += bound->accept(rank - 1, std::move(answer));
+  own_ += answer.work - expected_work_[static_cast<std::size_t>(rank)];
+  remote_pricings_ += bound->accept(rank - 1, std::move(answer));
   return update_from_bound();
 }
 

@@ -26,8 +26,9 @@ class LagrangianScheduler {
   explicit LagrangianScheduler(const Tuning& tuning) : tuning_(tuning) {}
 
   // Must be called before the search, on the rank that owns the bound. `instance` must outlive this
-  // object; `stops` is copied. `keeps_reasons`: whether to record what log_proof() needs.
-  void open(const Instance& instance, const AgentStopsCache& stops, bool keeps_reasons);
+  // object; `stops` is copied. `records_best_multipliers`: whether to record what log_proof()
+  // needs.
+  void open(const Instance& instance, const AgentStopsCache& stops, bool records_best_multipliers);
 
   // Records `work` units of effort of the tree search and the primal search.
   void add_other_work(std::int64_t work) { others_ += work; }
@@ -54,7 +55,7 @@ class LagrangianScheduler {
   // Sets the number of ranks that share the search. Must be called on rank 0 before the search.
   void set_ranks(int ranks) {
     ranks_ = ranks;
-    asked_of_.resize(static_cast<std::size_t>(ranks));
+    expected_work_.resize(static_cast<std::size_t>(ranks));
   }
   // Returns the pricing requests to send now, each with its receiver.
   std::vector<std::pair<int, PricingRequest>> dispatch_pricing();
@@ -62,7 +63,7 @@ class LagrangianScheduler {
   // std::invalid_argument if `rank` cannot have a request, and what LagrangianBound::accept()
   // throws.
   Cost accept(int rank, PricingReply answer);
-  std::int64_t remote_pricings() const { return prices_of_ranks_; }
+  std::int64_t remote_pricings() const { return remote_pricings_; }
 
   // Takes a pricing request, which workers handle before all other work. Must be called only on
   // ranks other than 0. Throws what RemotePricing::accept() throws.
@@ -82,14 +83,14 @@ class LagrangianScheduler {
   std::atomic<std::int64_t> own_{0};       // effort for the bound, on all ranks
   std::atomic<std::int64_t> own_here_{0};  // effort for the bound in this process
   std::atomic<int> rounds_{0};
-  std::atomic<std::int64_t> prices_of_ranks_{0};
+  std::atomic<std::int64_t> remote_pricings_{0};
   std::atomic<bool> is_over_{true};
   std::atomic<bool> helps_{false};
   int ranks_ = 1;
-  std::vector<std::int64_t> asked_of_;      // by rank: expected effort of its request
-  mutable std::mutex making_;               // guards the creation of the next two members
-  std::unique_ptr<LagrangianBound> bound_;  // made when first due
-  std::unique_ptr<RemotePricing> help_;     // made at the first request; bound_ then stays nullptr
+  std::vector<std::int64_t> expected_work_;  // by rank: expected effort of its request
+  mutable std::mutex making_;                // guards the creation of the next two members
+  std::unique_ptr<LagrangianBound> bound_;   // made when first due
+  std::unique_ptr<RemotePricing> help_;      // made at the first request; bound_ then stays nullptr
 };
 
 }  // namespace grove::detail

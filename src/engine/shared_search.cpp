@@ -109,9 +109,9 @@ SharedSearch::SharedSearch(const SolveOptions& options, const Limits& limits, Lo
       trees_(trees),
       observer_(observer),
       lagrangian_(options.tuning),
-      shares_(std::make_unique<MemoryBudgets>(limits, options.node_memory)),
+      budgets_(std::make_unique<MemoryBudgets>(limits, options.node_memory)),
       max_cache_bytes_(kMaxCacheBytes),
-      known_(std::make_shared<SharedCache>()) {}
+      cache_(std::make_shared<SharedCache>()) {}
 
 SharedSearch::~SharedSearch() = default;
 
@@ -178,24 +178,24 @@ void SharedSearch::keep_within_memory() {
   const std::unique_lock lock(keeping_, std::try_to_lock);
   if (!lock) return;
   const std::size_t known = memory()->bytes();
-  if (shares_->is_short()) {
-    shares_->cut(pool_.bytes(), known);
-    evict_to(shares_->for_nodes());
+  if (budgets_->is_short()) {
+    budgets_->cut(pool_.bytes(), known);
+    evict_to(budgets_->for_nodes());
     ::malloc_trim(0);
-    shares_->memory_returned();
-  } else if (pool_.bytes() > shares_->for_nodes()) {
-    evict_to(shares_->for_nodes() / 8 * 7);
+    budgets_->memory_returned();
+  } else if (pool_.bytes() > budgets_->for_nodes()) {
+    evict_to(budgets_->for_nodes() / 8 * 7);
   }
-  max_cache_bytes_ = std::min(kMaxCacheBytes, shares_->for_expanders());
+  max_cache_bytes_ = std::min(kMaxCacheBytes, budgets_->for_expanders());
   if (known <= max_cache_bytes_) return;
   auto next = std::make_shared<SharedCache>(SharedCache::Successor{});
   const std::lock_guard lock_known(knowing_);  // the old cache is freed after the lock is released
-  known_.swap(next);
+  cache_.swap(next);
 }
 
 std::shared_ptr<SharedCache> SharedSearch::memory() const {
   const std::lock_guard lock(knowing_);
-  return known_;
+  return cache_;
 }
 
 // Results from other ranks can fill half of the cache; the other half is for local results. A full

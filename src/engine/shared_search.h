@@ -114,12 +114,12 @@ class SharedSearch {
   std::atomic<BoundingEffort> bounding_effort_{BoundingEffort::kFull};
 
   std::mutex keeping_;  // guards the budgets
-  const std::unique_ptr<MemoryBudgets> shares_;
+  const std::unique_ptr<MemoryBudgets> budgets_;
 
   std::atomic<std::size_t> max_cache_bytes_;  // maximum size of the cached results in bytes
   mutable std::mutex knowing_;
   std::shared_ptr<SharedCache>
-      known_;  // guarded by knowing_: GCC 11 has no std::atomic<std::shared_ptr>
+      cache_;  // guarded by knowing_: GCC 11 has no std::atomic<std::shared_ptr>
 
   mutable std::mutex helping_;
   NodePtr unfinished_;  // guarded by helping_

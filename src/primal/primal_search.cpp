@@ -7,7 +7,7 @@
 // has spent as much effort without success as the round took to reach its best plan, and has made
 // at least max(kStallNeighborhoods, kStallNeighborhoodsPerAgent * agents) iterations since then.
 //
-// *Definition.* W is the effort of individual planning for all agents (meeting_work_).
+// *Definition.* W is the effort of individual planning for all agents (individual_planning_work_).
 //
 // *First plan.* Prioritised planning has a head start: until its first failure, and for an effort
 // of at most pp_head_start*W, it gets all effort. On instances that are not dense, prioritised
@@ -126,11 +126,12 @@ class PrimalSearch::Impl {
   bool expects_plan() const {
     if (!may_step_lacam_ || optimal()) return false;
     if (best_ == kInfiniteCost) return joint_steps_ < kLacamExpectedSteps;
-    const std::int64_t meetings = std::min(
-        tuning_.pp_long_attempt, meeting_work_ / tuning_.root_work_per_individual_planning);
+    const std::int64_t factor =
+        std::min(tuning_.pp_long_attempt,
+                 individual_planning_work_ / tuning_.root_work_per_individual_planning);
     const bool plans = planning_now_ && first_round_;
-    return (plans && planning_work_ < meetings * meeting_work_) ||
-           (guided_ && guided_work_ < meetings * meeting_work_);
+    return (plans && planning_work_ < factor * individual_planning_work_) ||
+           (guided_ && guided_work_ < factor * individual_planning_work_);
   }
   bool optimal() const {
     return individually_planned_ == agents_ && own_costs_are_minimal_ && best_ <= own_costs_;
@@ -193,14 +194,14 @@ class PrimalSearch::Impl {
   AgentIndex individually_planned_ = 0;  // agents from here on have no individual path yet
   Cost own_costs_ = 0;                   // sum over the agents with an individual path
   bool own_costs_are_minimal_ = true;
-  std::int64_t meeting_work_ = 0;
+  std::int64_t individual_planning_work_ = 0;
   std::optional<Plan> adopted_;  // plan adopted before all individual paths were known
   bool improving_ = false;       // there is a plan in paths_
   Cost best_ = kInfiniteCost;
   std::vector<Path> best_paths_;  // by agent: paths of the best plan, if it was found here
   std::vector<std::int64_t> best_editions_;  // by agent: edition in paths_ that best_paths_ holds
   Cost reported_cost_ = kInfiniteCost;       // cost of the best plan returned or adopted
-  std::int64_t work_when_told_ = 0;
+  std::int64_t work_at_last_report_ = 0;
   PlanSource source_ = PlanSource::kPrioritizedPlanning;
   PlanSource source_of_paths_ = PlanSource::kPrioritizedPlanning;
   std::int64_t steps_ = 0;
@@ -235,7 +236,7 @@ std::optional<Plan> PrimalSearch::Impl::step(const Limits& limits) {
   if (best_ < before) work_at_last_plan_ = work();
   if (best_ == reported_cost_ || !may_report(limits)) return std::nullopt;
   reported_cost_ = best_;
-  work_when_told_ = work();
+  work_at_last_report_ = work();
   return low_level_.plan(best_paths_);
 }
 
@@ -255,7 +256,7 @@ void PrimalSearch::Impl::keep_best() {
 // Therefore, when LNS improves a plan in many small steps, only some of the plans are returned.
 bool PrimalSearch::Impl::may_report(const Limits& limits) const {
   return source_ != PlanSource::kLns || optimal() || limits.stop_requested() ||
-         work() - work_when_told_ >= tuning_.lns_report_work * best_;
+         work() - work_at_last_report_ >= tuning_.lns_report_work * best_;
 }
 
 void PrimalSearch::Impl::advance(const Limits& limits) {
@@ -278,7 +279,7 @@ void PrimalSearch::Impl::advance(const Limits& limits) {
 void PrimalSearch::Impl::plan_individually(const Limits& limits) {
   const std::int64_t before = work();
   const bool met = low_level_.plan_individually(individually_planned_, limits);
-  meeting_work_ += work() - before;
+  individual_planning_work_ += work() - before;
   if (!met) return;
   own_costs_are_minimal_ = own_costs_are_minimal_ && low_level_.knows_best(individually_planned_);
   own_costs_ += low_level_.individual_cost(individually_planned_++);
@@ -299,7 +300,7 @@ void PrimalSearch::Impl::begin_round(bool first) {
   planning_.begin(std::move(order));
   planning_now_ = true;
   first_round_ = first;
-  patience_ = tuning_.pp_head_start * meeting_work_;
+  patience_ = tuning_.pp_head_start * individual_planning_work_;
   planning_work_ = 0;
   other_work_ = 0;
   round_began_ = work();
@@ -308,9 +309,10 @@ void PrimalSearch::Impl::begin_round(bool first) {
 bool PrimalSearch::Impl::planning_is_due() const {
   if (!planning_now_) return false;
   if (!is_raced()) return true;
-  const bool ahead =
-      planning_.failures() == 0 && planning_work_ < tuning_.pp_head_start * meeting_work_;
-  const bool takes_long = improving_ && planning_work_ > tuning_.pp_long_attempt * meeting_work_;
+  const bool ahead = planning_.failures() == 0 &&
+                     planning_work_ < tuning_.pp_head_start * individual_planning_work_;
+  const bool takes_long =
+      improving_ && planning_work_ > tuning_.pp_long_attempt * individual_planning_work_;
   return ahead || planning_work_ <= other_work_ / (takes_long ? kOtherWorkPerLatePlanningWork : 1);
 }
 

@@ -100,7 +100,7 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
   ++failures_;
   greedily_ = false;
   if (labels_of_order_ < tuning_.pp_resume_labels || has_failed_[agent])
-    begin_with_next();
+    restart_with_failed_first();
   else
     remove_blocking_agents(agent);
   return Outcome::kWorking;
@@ -124,7 +124,7 @@ void PrioritizedPlanning::remove_blocking_agents(AgentIndex agent) {
   next_ = static_cast<std::size_t>(first_gone - order_.begin());
 }
 
-void PrioritizedPlanning::begin_with_next() {
+void PrioritizedPlanning::restart_with_failed_first() {
   if (failures_ % std::ssize(order_) == 0)
     random_.shuffle(order_);
   else

@@ -48,7 +48,7 @@ class PrioritizedPlanning {
   std::int64_t label_limit() const;
   std::int64_t max_exact_labels() const;
   void remove_blocking_agents(AgentIndex agent);
-  void begin_with_next();
+  void restart_with_failed_first();
   void note_labels(std::int64_t labels);
 
   const World& world_;
