@@ -58,7 +58,7 @@ enum class Status : std::uint8_t {
   bounded,     ///< The plan costs at most (1 + omega) times the lower bound.
   feasible,    ///< The plan is valid, but the bound does not prove that it is within omega.
   infeasible,  ///< Proven: no plan exists.
-  unknown,     ///< A limit was reached before a plan was found.
+  unknown,     ///< No plan was found, usually because a limit was reached; plans may exist.
 };
 
 /// Returns the name of the status in plan files: "optimal", "bounded", ...
