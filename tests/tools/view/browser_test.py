@@ -156,7 +156,7 @@ class TwoPlans(PageTest):
 
     def test_different_order_of_visits_is_shown(self):
         self.open_both(self.good(), self.good(b=[[0, 1], [0, 2], [1, 2], [2, 2], [2, 1], [1, 1]], c=[[0, 2], [0, 2]]))
-        self.assertIn("other order", self.texts(".row")[0])
+        self.assertIn("different order", self.texts(".row")[0])
 
     def test_equal_plans_have_no_differences(self):
         self.open_both(self.good(), self.good())

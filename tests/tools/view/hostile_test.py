@@ -126,7 +126,7 @@ class Hostile(PageTest):
             ("tasks[0].agents[0]", data(tasks=[{"id": "t", "place": 0, "agents": [7]}])),
             ("plans[0].agents: expected a list of 1", data(plans=[{**plan, "agents": []}])),
             ("plans[0].agents[0].path: a path leaves the world", data(plans=[{**plan, "agents": [{"path": "@0;9S"}]}])),
-            ("plans[0].agents[0].path: a path holds '<'", data(plans=[{**plan, "agents": [{"path": "<script>"}]}])),
+            ("plans[0].agents[0].path: a path contains '<'", data(plans=[{**plan, "agents": [{"path": "<script>"}]}])),
         ]:
             with self.subTest(message):
                 self.open(self.page_of(corrupt))

@@ -111,7 +111,7 @@ class ProofPages(pages.PageTest):
                          ("ArrowLeft", "b is not on [1, 0] at 1")):
             self.browser.key(key)
             self.assertEqual(self.chosen_row(), row)
-        self.assertIn("Otherwise a and b together cost at most 7, and lemma 0 says that they cost more.", self.text(".details"))
+        self.assertIn("Otherwise a and b together cost at most 7, and by lemma 0 they cost more.", self.text(".details"))
         self.browser.key("ArrowLeft")
         self.assertEqual(len(self.texts(".tree .row")), 3)
         self.press("Fold all")
@@ -146,7 +146,7 @@ class ProofPages(pages.PageTest):
         self.assertIn("all joint paths of a and b that satisfy the constraints: there are none", self.text(".details"))
         self.browser.open(self.proof_page(instance, self.written(
             instance, "theorem 6\nprices\nplace 1 1 500\nedge 1 2 2 100\nfinish 0 3 1 3 7\nend\n")))
-        self.assertIn("proven by 3 prices", self.text(".strip"))
+        self.assertIn("proven by 3 multipliers", self.text(".strip"))
         self.assert_silent()
 
     def test_invalid_split_is_reported(self):
