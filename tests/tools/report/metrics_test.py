@@ -15,7 +15,7 @@ sys.path[:0] = [str(Path(__file__).resolve().parents[3] / "tools/report"),
 import synthetic  # noqa: E402
 from grove_report import anytime, logs, metrics, plans, proofs, rows, scales, speedup, style, tracker  # noqa: E402
 from grove_report.lines import Line, Lines, families  # noqa: E402
-from grove_report.metrics import Cell  # noqa: E402
+from grove_report.metrics import Configuration  # noqa: E402
 from grove_report.rows import BadInput, read_results  # noqa: E402
 from grove_report.tables import csv_text, csv_value, html_table, seconds, text_of_cell, word  # noqa: E402
 
@@ -310,12 +310,12 @@ class Measures(unittest.TestCase):
         self.assertLess(exact.mean_sqr, other.mean_sqr)
         self.assertEqual((exact.mean_cost_ratio, other.mean_cost_ratio), (1, 1.1))
 
-    def test_cells_separate_methods_omegas_and_limits(self):
+    def test_configurations_separate_methods_omegas_and_limits(self):
         made = [row(), row(omega="0"), row(time_limit_s=7.0), row(tasks=20, method="b")]
-        found = metrics.by_cell(made, metrics.best_costs(made))
-        self.assertEqual({cell: set(lines) for cell, lines in found.items()},
-                         {Cell("m", 5, 10): {Line("a", "", 100), Line("a", "0", 100), Line("a", "", 7.0)},
-                          Cell("m", 5, 20): {Line("b", "", 100)}})
+        found = metrics.by_configuration(made, metrics.best_costs(made))
+        self.assertEqual({configuration: set(lines) for configuration, lines in found.items()},
+                         {Configuration("m", 5, 10): {Line("a", "", 100), Line("a", "0", 100), Line("a", "", 7.0)},
+                          Configuration("m", 5, 20): {Line("b", "", 100)}})
 
     def test_median_run_of_several_seeds(self):
         def time_of(*runs):
@@ -614,8 +614,8 @@ class Tracker(Folder):
         done = tracker.submission(found, metrics.best_costs(found))
         self.assertEqual(done.text, "map_name,scen_type,type_id,agents,lower_cost,solution_cost,flip_up_down,solution_plan\n"
                                     'random-32-32-20,random,3,2,4,5,FALSE,"rwu\n2d"\n')
-        self.assertEqual(sum(done.left_out.values()), 5)
-        self.assertEqual(sorted(why.replace(f"{self.folder}/", "") for why in done.left_out), [
+        self.assertEqual(sum(done.omitted.values()), 5)
+        self.assertEqual(sorted(why.replace(f"{self.folder}/", "") for why in done.omitted), [
             "b: agent 1 jumps at time 1",
             "not of a scenario of the Moving AI benchmark (expected the name MAP-even-N-AGENTS or MAP-random-N-AGENTS)",
             "not the cheapest plan of the instance",

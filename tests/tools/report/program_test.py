@@ -163,19 +163,19 @@ class Reports(Folder):
     def test_tables_agree_with_the_rows(self):
         found = list(few(4, agents=(20,)))
         self.report(self.results(found))
-        cell = [row for row in found if (row["problem"], row["method"], row["map"], row["agents"],
+        group = [row for row in found if (row["problem"], row["method"], row["map"], row["agents"],
                                          row["tasks"]) == ("mg", "hcbs", "room-32-32-4", 20, 30)]
         entry, = [row for row in self.table("comparison_mg")
                   if (row["method"], row["map"], row["agents"], row["tasks"])
                   == ("hcbs", "room-32-32-4", "20", "30")]
-        self.assertEqual(int(entry["solved"]), sum(row["solved"] for row in cell))
+        self.assertEqual(int(entry["solved"]), sum(row["solved"] for row in group))
         self.assertAlmostEqual(float(entry["mean_runtime_s"]),
-                               sum(row["runtime_s"] for row in cell) / len(cell), places=2)
+                               sum(row["runtime_s"] for row in group) / len(group), places=2)
         self.assertEqual({row["omega"] for row in self.table("omega_study")}, {"0", "0.01", "0.1", "inf"})
 
     def test_page_and_file_list_every_cell_and_method(self):
         page, _ = self.report(self.results([row for row in few(1) if row["problem"] == "mg"]))
-        table = page.split("Table: every cell (map, N, M) and method</summary>")[1].split("</details>")[0]
+        table = page.split("Table: every configuration (map, N, M) and method</summary>")[1].split("</details>")[0]
         self.assertEqual(table.count("<tr>"), 1 + len(self.table("comparison_mg")))
         for column in ("success rate", "median s (failures = limit)", "mean SQR (solved runs)"):
             self.assertIn(f">{column}</th>", table)
@@ -266,7 +266,7 @@ class Reports(Folder):
                      "mgcbs, limit 999 s"):
             self.assertIn(text, page)
 
-    def test_missing_cells_are_reported(self):
+    def test_missing_configurations_are_reported(self):
         found = [row for row in few(1, study=False) if row["method"] != "hcbs" or row["tasks"] != 30]
         page, _ = self.report(self.results(found))
         self.assertIn("not every method was run on all 2 instances (hcbs, ω = 0: 1)", page)
@@ -315,9 +315,10 @@ class Reports(Folder):
             self.assertTrue((self.folder / f"out/{name}.svg").exists())
         entry, = [row for row in self.table("success_mapf") if (row["map"], row["agents"], row["method"])
                   == ("random-32-32-20", "100", "eecbs")]
-        cell = [row for row in found if (row["map"], row["agents"], row["method"]) == ("random-32-32-20", 100, "eecbs")]
+        group = [row for row in found
+                 if (row["map"], row["agents"], row["method"]) == ("random-32-32-20", 100, "eecbs")]
         self.assertEqual((entry["instances"], entry["seeds"], entry["runs"]), ("3", "2", "6"))
-        self.assertEqual(entry["success_rate"], f"{sum(row['solved'] for row in cell) / 6:.6g}")
+        self.assertEqual(entry["success_rate"], f"{sum(row['solved'] for row in group) / 6:.6g}")
         # Methods that do not improve their plans have no curve over time.
         curves = self.table("anytime_mapf")
         self.assertEqual({row["method"] for row in curves}, {"auto", "lacam", "lns"})

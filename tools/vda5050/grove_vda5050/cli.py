@@ -17,7 +17,7 @@ from grove_driving.bad_input import BadInput
 from grove_driving.drive_log import ExecutionLog, open_log
 from grove_driving.frame import Frame
 from grove_driving.order import read_order
-from grove_driving.program import FAILURE, complain, exit_code
+from grove_driving.program import FAILURE, exit_code, print_error
 
 from . import trial
 from .clock import Clock
@@ -349,7 +349,7 @@ def _drive(a):
     for line in drive.summary():
         say(line)
     if not completed:
-        complain(drive.failure())
+        print_error(drive.failure())
     return 0 if completed else FAILURE
 
 
@@ -378,7 +378,7 @@ def _vehicles(a):
     world = fleet.world
     print(f"Messages      {fleet.received} orders received, {sum(v.refused for v in fleet.vehicles)} refused; "
           f"{fleet.delayed} messages late, {fleet.lost} lost")
-    print(f"Done          {sum(v.acted for v in fleet.vehicles)} works and visits")
+    print(f"Done          {sum(v.acted for v in fleet.vehicles)} task executions and visits")
     if world.least_pair:
         print(f"Distance      at least {world.least:.2f} m between centres, of {' and '.join(world.least_pair)}")
     print("Places        " + (world.collisions[0] if world.collisions else "no vehicle drove to an occupied place"))
@@ -455,7 +455,7 @@ def _trial(a):
     failures = [text for failed, text in ((not completed, drive.failure()), (vehicles_code, "vehicles collided"),
                                           (monitor.violations, "messages were wrong")) if failed]
     if failures:
-        complain("; ".join(failures))
+        print_error("; ".join(failures))
     return FAILURE if failures else 0
 
 
