@@ -78,7 +78,8 @@ def pairs(configurations, firsts, others):
 
 
 def largest(configurations, ratio):
-    """Returns, as text, the largest ratio of an adaptation to a baseline and the first configuration with this ratio."""
+    """Returns, as text, the largest ratio of an adaptation to a baseline, and the first configuration
+    where it occurs."""
     found = [(ratio(one, other), configuration, name, second)
              for configuration, name, one, second, other in pairs(configurations, ADAPTATIONS, BASELINES)
              if one.solved and other.solved]
@@ -108,7 +109,8 @@ def quality_loss(configurations):
 
 def quality_a(configurations):
     found = [loss for loss, _, _ in losses(configurations, [A], EXACT)]
-    return f"{100 * min(found):.1f} to {100 * max(found):.1f} % less, in the median {100 * statistics.median(found):.1f} %"
+    return f"{100 * min(found):.1f} to {100 * max(found):.1f} % less, " \
+        f"in the median {100 * statistics.median(found):.1f} %"
 
 
 def of(configurations, is_true):

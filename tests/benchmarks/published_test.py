@@ -28,7 +28,8 @@ def configurations():
     other = SimpleNamespace(map="room-1", agents=5, tasks=20)
     return {_Key(configuration): {published.A: measured(0.5, 4.0, 0.99), published.B: measured(0.8, 0.5, 0.95),
                          published.C: measured(0.75, 2.0, 0.97), **baselines},
-            _Key(other): {published.A: measured(0), published.B: measured(0.2, 9.0, 0.9), published.C: measured(0), **nothing}}
+            _Key(other): {published.A: measured(0), published.B: measured(0.2, 9.0, 0.9), published.C: measured(0),
+                          **nothing}}
 
 
 class _Key:
@@ -62,7 +63,8 @@ class Claims(unittest.TestCase):
             "speed-up": "10 times at most (room, N = 5, M = 10: B against Optimal-CBS)",
             "quality-loss": "5.0 % at most (room, N = 5, M = 10: B)",
             "quality-a": "1.0 to 1.0 % less, in the median 1.0 %",
-            "room-success-a": "than all: 1 of the 1 configurations in which A or a baseline solves any; lower than the best: 0",
+            "room-success-a": "than all: 1 of the 1 configurations in which A or a baseline solves any; "
+                              "lower than the best: 0",
             "room-runtime-a": "than the fastest: 1 of 2 configurations, 1.2 times at most",
             "success-b": "of the best baseline's: 2.0 to 2.0 times, in the median 2.0 times; "
                          "in 1 configurations B alone solves any",

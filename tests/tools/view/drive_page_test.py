@@ -37,7 +37,8 @@ class DrivePages(pages.PageTest):
         self.browser.requests.clear()
 
     def run_grove(self, *words):
-        return subprocess.run([self.grove, *map(str, words)], cwd=self.folder, capture_output=True, text=True, check=True)
+        return subprocess.run([self.grove, *map(str, words)], cwd=self.folder, capture_output=True, text=True,
+                              check=True)
 
     def begin(self, *lines, robots=("a", "b")):
         header = {"format": "grove drive 1", "order": "o.json", "robots": robots, "seconds_per_step": 1.0}
@@ -103,7 +104,8 @@ class DrivePages(pages.PageTest):
             with pages.Chromium("--disable-gpu", "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1") as browser:
                 self.browser = browser
                 browser.call("Page.navigate", url=address + "#t=5&agent=a")
-                self.wait_for("globalThis.grove?.app.player.time === 5 && grove.app.chosen === 0 && !grove.app.player.live")
+                self.wait_for("globalThis.grove?.app.player.time === 5 && grove.app.chosen === 0 && "
+                              "!grove.app.player.live")
                 browser.evaluate("document.querySelector('.golive').click()")
                 self.wait_for("location.hash === '#agent=a'")  # a live page has no time in its address
 
@@ -170,7 +172,8 @@ class DrivePages(pages.PageTest):
         self.quiet()
 
     def test_hostile_names_run_no_script(self):
-        instance = self.grid(3, 1, [{"id": ALERT, "start": [0, 0], "goal": [2, 0]}], [{"id": ALERT, "cell": [1, 0], "agents": [ALERT]}])
+        instance = self.grid(3, 1, [{"id": ALERT, "start": [0, 0], "goal": [2, 0]}],
+                             [{"id": ALERT, "cell": [1, 0], "agents": [ALERT]}])
         self.run_grove("solve", instance, "--quiet", "--output", self.plan_file)
         self.begin(line(0, ALERT, [0, 0], 0, "moving"), line(2, ALERT, [2, 0], 2, "done"), robots=(ALERT,))
         self.browser.open(self.drive_page())
@@ -190,7 +193,8 @@ class DrivePages(pages.PageTest):
         self.browser.evaluate("grove.app.player.go(grove.app.player.end), grove.app.changed()")
         self.browser.settle()
         self.assertIn("3 of 3 done", self.text(".strip"))
-        self.assertEqual(self.browser.evaluate("grove.app.tasks.every(({agents, times}) => times.length === agents.length)"), True)
+        self.assertEqual(self.browser.evaluate("grove.app.tasks.every(({agents, times}) => times.length === "
+                                               "agents.length)"), True)
         self.quiet()
 
     @contextlib.contextmanager
@@ -234,7 +238,8 @@ class DrivePages(pages.PageTest):
             for _ in range(5):
                 with urllib.request.urlopen(address) as answer:
                     answer.read()  # returns only when the server closes the connection
-            words = [self.grove, "view", self.instance_file, self.plan_file, "--drive", self.log, "--follow", "--port", port]
+            words = [self.grove, "view", self.instance_file, self.plan_file, "--drive", self.log, "--follow", "--port",
+                     port]
             second = subprocess.run(words, capture_output=True, text=True, timeout=120)
             self.assertEqual(second.returncode, 2)
             self.assertIn("--port: is in use", second.stderr)
@@ -283,7 +288,8 @@ class DrivePages(pages.PageTest):
                                     "(document.querySelector('.time').getBoundingClientRect())")
         y = box[1] + box[3] / 2
         places = [box[0] + part_of * (box[2] - 16) + 8 for part_of in (0.95, 0.5, part)]
-        mouse = lambda kind, x, **more: self.browser.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)  # noqa: E731
+        mouse = lambda kind, x, **more: self.browser.call("Input.dispatchMouseEvent", type=kind, x=x, y=y,
+                                                          **more)  # noqa: E731
         mouse("mousePressed", places[0], button="left", buttons=1, clickCount=1)
         for x in places[1:]:
             mouse("mouseMoved", x, button="left", buttons=1)

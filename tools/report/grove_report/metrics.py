@@ -168,7 +168,10 @@ class Configuration(NamedTuple):
 
 
 def by_configuration(rows, best):
-    """Returns {configuration: {line: Measures}} for the lines with rows of the configuration. `best`: see measures()."""
+    """Returns {configuration: {line: Measures}} for the lines with rows of the configuration.
+
+    best: see measures().
+    """
     groups = grouped(rows, lambda row: Configuration(row.map, row.agents, row.tasks))
     return {configuration: measures_by_line(group, best) for configuration, group in sorted(groups.items())}
 

@@ -40,7 +40,8 @@ GLOSSARY = [
     ("Seeds", "Runs that differ only in the seed are repetitions of one instance: means are taken over these first, "
      "then over instances. Success rate of an instance: the share of its runs that are solved."),
     ("Claimed, invalid", "Of other solvers. Claimed: a run that reported a cost without a plan. Invalid: a run in "
-     "whose plan agents collide, jump or do not arrive. Neither counts as solved, and its cost does not count as known."),
+     "whose plan agents collide, jump or do not arrive. Neither counts as solved, and its cost does not count as "
+     "known."),
     ("Anytime", "A method that improves its plan until its time limit. Reaching the limit is not a failure: a run with "
      "a plan counts as solved, and its runtime is the time to its first plan."),
     ("SQR, solution quality ratio", "Root cost / cost of the plan, of solved runs. The root cost is the "
@@ -84,7 +85,8 @@ def _file(report, before, name):
 
 def _figure(figure, caption="", kind=""):
     """Returns the HTML of a figure. `kind`: "column" for figures as wide as a column of a paper, otherwise ""."""
-    return (f'<figure class="{kind}"><img alt="{_text(figure.title)}" src="{_data("image/svg+xml", figure.svg.encode("utf-8"))}">'
+    return (f'<figure class="{kind}"><img alt="{_text(figure.title)}" '
+            f'src="{_data("image/svg+xml", figure.svg.encode("utf-8"))}">'
             f"<figcaption><b>{_text(figure.title)}.</b> {_text(caption)}</figcaption></figure>")
 
 
@@ -529,8 +531,9 @@ def _best_known(report):
                          *(Entry(str(sum(getattr(each, name) for each in group)))
                            for name in ("better_plan", "higher_bound", "closes"))])
     better = [each for each in known.found if each.better_plan or each.higher_bound or each.closes]
-    parts = [*head, html_table(["method", "instances", "with a plan", "mean cost / best known", "as good", "better plans",
-                                "higher bounds", "closed"], rows),
+    parts = [*head,
+             html_table(["method", "instances", "with a plan", "mean cost / best known", "as good", "better plans",
+                         "higher bounds", "closed"], rows),
              _file(report, "Every instance as a file", "best_known.csv")]
     if better:
         parts += ["<h3>Improvements on the best known values</h3>", html_table(

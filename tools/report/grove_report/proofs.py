@@ -132,7 +132,8 @@ def contradictions(rows, known=None):
     """
     groups = grouped((row for row in rows if row.status != "error"), lambda row: (row.problem, row.instance))
     return [Contradiction(*key, what) for key, group in sorted(groups.items())
-            for what in itertools.chain(_of_instance(group), _against(group, known[key]) if key in (known or {}) else ())]
+            for what in itertools.chain(_of_instance(group),
+                                        _against(group, known[key]) if key in (known or {}) else ())]
 
 
 def optimal_agreements(rows):

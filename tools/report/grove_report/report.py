@@ -354,7 +354,8 @@ def _omegas(problem, lines):
 def _guarantee(line, solved, lines):
     """Yields notes on solved rows of a line that do not prove the tolerance omega, or have no guarantee."""
     outside = [row for row in solved if metrics.within_omega(row) is False]
-    unproven = [row for row in solved if not row.solver and line.omega in metrics.NO_PROMISE and row.status != "optimal"]
+    unproven = [row
+                for row in solved if not row.solver and line.omega in metrics.NO_PROMISE and row.status != "optimal"]
     statuses = "status " + ", ".join(sorted({row.status for row in outside or unproven}))
     if outside:
         yield (f"{lines.label(line)}: {len(outside)} of {len(solved)} solved runs are outside ω "
@@ -450,7 +451,8 @@ def _runs_figure(output, logs):
     return output.figure("runs", "Bound and plan of single runs", curves.runs(groups))
 
 
-BEST_KNOWN_COLUMNS = ["map_name", "scen_type", "type_id", "agents", *LINE_COLUMNS, "best_known_bound", "best_known_cost",
+BEST_KNOWN_COLUMNS = ["map_name", "scen_type", "type_id", "agents", *LINE_COLUMNS, "best_known_bound",
+                      "best_known_cost",
                       "cost", "lower_bound", "cost_ratio", "better_plan", "higher_bound", "closes"]
 
 

@@ -299,7 +299,8 @@ class _Drive:
         control = self.control
         done = sum(control.releases.done.values())
         real, seconds = self.seconds
-        yield f"Time          {seconds:.1f} s" + (f" of the vehicles, {real:.1f} s real" if self.clock.pace != 1 else "")
+        yield f"Time          {seconds:.1f} s" + (f" of the vehicles, {real:.1f} s real"
+                                                  if self.clock.pace != 1 else "")
         yield f"Vehicles      {sum(v.completed for v in control.vehicles.values())} of {len(control.vehicles)} done"
         yield f"Actions       {done} of {sum(len(r.actions) for r in self.setup.order.robots)} of the passing order"
         yield f"Orders        {control.messages} messages, {control.resent} of them repeats"
