@@ -169,7 +169,7 @@ def parse(words):
     return arguments
 
 
-def complain(rows):
+def report_problems(rows):
     """Reports contradictions and failed runs on standard error and returns whether there are any."""
     found = contradictions([row_of(row, row["instance"]) for row in rows])
     if found:
@@ -188,7 +188,7 @@ def main():
     arguments = parse(sys.argv[1:])
     jobs, report = arguments.experiment(arguments)
     rows = run_all(jobs, Maps(arguments.maps), arguments.jobs, arguments.csv)
-    is_wrong = complain(rows)
+    is_wrong = report_problems(rows)
     if rows:
         print("\n\n".join(report(rows)))
     return 0 if rows and not is_wrong else 1

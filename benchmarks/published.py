@@ -3,7 +3,8 @@
 """Compares the paper's published results with Grove's runs, as Markdown tables.
 
     published.py           prints the paper's statements with the values of our runs, its study of omega (both are in
-                           docs/researchers.md), and every cell of its comparison (results/paper/cells.md)
+                           docs/researchers.md), and every configuration of its comparison
+                           (results/paper/configurations.md)
     published.py --write   writes the tables into these pages
 
 Our runs are in results/paper/results.csv, the published values in results/paper/published.csv. This program contains
@@ -22,7 +23,7 @@ PAPER = HERE / "results/paper"
 GUIDE = HERE.parent / "docs/researchers.md"
 sys.path[:0] = [str(HERE), str(HERE.parent / "tools/report")]
 
-from grove_report.metrics import best_costs, by_cell, measures_by_line  # noqa: E402
+from grove_report.metrics import best_costs, by_configuration, measures_by_line  # noqa: E402
 from grove_report.rows import read_results  # noqa: E402
 from harness import tables  # noqa: E402
 
@@ -45,10 +46,10 @@ def our_rows():
 
 
 def comparison(rows):
-    """Returns {cell: {method: Measures}} for MG-MAPF."""
+    """Returns {configuration: {method: Measures}} for MG-MAPF."""
     rows = [row for row in rows if row.problem == "mg"]
-    return {cell: {line.method: measures for line, measures in lines.items()}
-            for cell, lines in by_cell(rows, best_costs(rows)).items()}
+    return {configuration: {line.method: measures for line, measures in lines.items()}
+            for configuration, lines in by_configuration(rows, best_costs(rows)).items()}
 
 
 def study(rows):
@@ -57,8 +58,8 @@ def study(rows):
     return {(line.method, line.omega): measures for line, measures in measures_by_line(rows, best_costs(rows)).items()}
 
 
-def said(cell):
-    return f"{cell.map.split('-')[0]}, N = {cell.agents}, M = {cell.tasks}"
+def said(configuration):
+    return f"{configuration.map.split('-')[0]}, N = {configuration.agents}, M = {configuration.tasks}"
 
 
 def percent(share):
@@ -69,59 +70,65 @@ def seconds(value):
     return f"{value:.3f}" if value < 1 else f"{value:.2f}"
 
 
-def pairs(cells, firsts, others):
-    """Returns [(cell, method, its Measures, other method, its Measures)] for all cells and pairs of methods."""
-    return [(cell, first, lines[first], second, lines[second]) for cell, lines in cells.items()
-            for first in firsts for second in others]
+def pairs(configurations, firsts, others):
+    """Returns [(configuration, method, its Measures, other method, its Measures)] for all configurations and pairs of
+    methods."""
+    return [(configuration, first, lines[first], second, lines[second])
+            for configuration, lines in configurations.items() for first in firsts for second in others]
 
 
-def largest(cells, ratio):
-    """Returns, as text, the largest ratio of an adaptation to a baseline and the first cell where it occurs."""
-    found = [(ratio(one, other), cell, name, second)
-             for cell, name, one, second, other in pairs(cells, ADAPTATIONS, BASELINES) if one.solved and other.solved]
-    value, cell, name, second = max(found, key=lambda each: each[0])
-    return f"{value:.0f} times at most ({said(cell)}: {NAMES[name]} against {NAMES[second]})"
+def largest(configurations, ratio):
+    """Returns, as text, the largest ratio of an adaptation to a baseline, and the first configuration
+    where it occurs."""
+    found = [(ratio(one, other), configuration, name, second)
+             for configuration, name, one, second, other in pairs(configurations, ADAPTATIONS, BASELINES)
+             if one.solved and other.solved]
+    value, configuration, name, second = max(found, key=lambda each: each[0])
+    return f"{value:.0f} times at most ({said(configuration)}: {NAMES[name]} against {NAMES[second]})"
 
 
-def success_ratio(cells):
-    return largest(cells, lambda a, b: a.success / b.success)
+def success_ratio(configurations):
+    return largest(configurations, lambda a, b: a.success / b.success)
 
 
-def speed_up(cells):
-    return largest(cells, lambda a, b: b.mean_runtime_s / a.mean_runtime_s)
+def speed_up(configurations):
+    return largest(configurations, lambda a, b: b.mean_runtime_s / a.mean_runtime_s)
 
 
-def losses(cells, methods, baselines):
-    """Returns [(relative loss of mean SQR against a baseline, cell, method)] where both solve an instance."""
-    return [(1 - one.mean_sqr / other.mean_sqr, cell, method)
-            for cell, method, one, _, other in pairs(cells, methods, baselines) if one.solved and other.solved]
+def losses(configurations, methods, baselines):
+    """Returns [(relative loss of mean SQR against a baseline, configuration, method)] where both solve an instance."""
+    return [(1 - one.mean_sqr / other.mean_sqr, configuration, method)
+            for configuration, method, one, _, other in pairs(configurations, methods, baselines)
+            if one.solved and other.solved]
 
 
-def quality_loss(cells):
-    loss, cell, method = max(losses(cells, ADAPTATIONS, BASELINES))
-    return f"{100 * loss:.1f} % at most ({said(cell)}: {NAMES[method]})"
+def quality_loss(configurations):
+    loss, configuration, method = max(losses(configurations, ADAPTATIONS, BASELINES))
+    return f"{100 * loss:.1f} % at most ({said(configuration)}: {NAMES[method]})"
 
 
-def quality_a(cells):
-    found = [loss for loss, _, _ in losses(cells, [A], EXACT)]
-    return f"{100 * min(found):.1f} to {100 * max(found):.1f} % less, in the median {100 * statistics.median(found):.1f} %"
+def quality_a(configurations):
+    found = [loss for loss, _, _ in losses(configurations, [A], EXACT)]
+    return f"{100 * min(found):.1f} to {100 * max(found):.1f} % less, " \
+        f"in the median {100 * statistics.median(found):.1f} %"
 
 
-def of(cells, is_true):
-    return f"{sum(map(is_true, cells.values()))} of {len(cells)} configurations"
+def of(configurations, is_true):
+    return f"{sum(map(is_true, configurations.values()))} of {len(configurations)} configurations"
 
 
-def rooms(cells):
-    return {cell: lines for cell, lines in cells.items() if cell.map.startswith("room")}
+def rooms(configurations):
+    return {configuration: lines for configuration, lines in configurations.items()
+            if configuration.map.startswith("room")}
 
 
 def best_success(lines):
     return max(lines[method].success for method in BASELINES)
 
 
-def room_success_a(cells):
-    some = {cell: lines for cell, lines in rooms(cells).items() if max(best_success(lines), lines[A].success) > 0}
-    higher, lower = (sum(sign * (lines[A].success - best_success(lines)) > 0 for lines in some.values()) for sign in (1, -1))
+def room_success_a(configurations):
+    some = [lines for lines in rooms(configurations).values() if max(best_success(lines), lines[A].success) > 0]
+    higher, lower = (sum(sign * (lines[A].success - best_success(lines)) > 0 for lines in some) for sign in (1, -1))
     return f"than all: {higher} of the {len(some)} configurations in which A or a baseline solves any; " \
         f"lower than the best: {lower}"
 
@@ -130,44 +137,47 @@ def fastest(lines):
     return min(lines[method].mean_runtime_s for method in BASELINES)
 
 
-def room_runtime_a(cells):
-    ratios = [fastest(lines) / lines[A].mean_runtime_s for lines in rooms(cells).values()]
-    return f"than the fastest: {of(rooms(cells), lambda lines: lines[A].mean_runtime_s < fastest(lines))}, " \
+def room_runtime_a(configurations):
+    ratios = [fastest(lines) / lines[A].mean_runtime_s for lines in rooms(configurations).values()]
+    return f"than the fastest: {of(rooms(configurations), lambda lines: lines[A].mean_runtime_s < fastest(lines))}, " \
         f"{max(ratios):.1f} times at most"
 
 
-def success_b(cells):
-    ratios = [lines[B].success / best_success(lines) for lines in cells.values() if best_success(lines)]
-    none = sum(not best_success(lines) and lines[B].success > 0 for lines in cells.values())
-    return f"of the best baseline's: {min(ratios):.1f} to {max(ratios):.1f} times, in the median {statistics.median(ratios):.1f} " \
-        f"times; in {none} configurations B alone solves any"
+def success_b(configurations):
+    ratios = [lines[B].success / best_success(lines) for lines in configurations.values() if best_success(lines)]
+    none = sum(not best_success(lines) and lines[B].success > 0 for lines in configurations.values())
+    return f"of the best baseline's: {min(ratios):.1f} to {max(ratios):.1f} times, in the median " \
+        f"{statistics.median(ratios):.1f} times; in {none} configurations B alone solves any"
 
 
-def runtime_b(cells):
-    ratios = [fastest(lines) / lines[B].mean_runtime_s for lines in cells.values()]
-    return f"than the fastest baseline's: ten times and more in {sum(ratio >= 10 for ratio in ratios)} of {len(ratios)} " \
-        f"configurations, {max(ratios):.0f} times at most"
+def runtime_b(configurations):
+    ratios = [fastest(lines) / lines[B].mean_runtime_s for lines in configurations.values()]
+    return f"than the fastest baseline's: ten times and more in {sum(ratio >= 10 for ratio in ratios)} of " \
+        f"{len(ratios)} configurations, {max(ratios):.0f} times at most"
 
 
-def quality_b(cells):
-    least, cell = min((lines[B].mean_sqr, cell) for cell, lines in cells.items() if lines[B].solved)
-    return f"at least {least:.2f} ({said(cell)})"
+def quality_b(configurations):
+    least, configuration = min((lines[B].mean_sqr, configuration) for configuration, lines in configurations.items()
+                               if lines[B].solved)
+    return f"at least {least:.2f} ({said(configuration)})"
 
 
-def success_c(cells):
-    return f"within 10 points: {of(cells, lambda lines: abs(lines[C].success - lines[B].success) <= SIMILAR)}"
+def success_c(configurations):
+    return f"within 10 points: {of(configurations, lambda lines: abs(lines[C].success - lines[B].success) <= SIMILAR)}"
 
 
-def runtime_c(cells):
+def runtime_c(configurations):
     def is_between(lines):
         low, middle, high = (lines[method].mean_runtime_s for method in (B, C, A))
         return low <= middle <= high
-    return of(cells, is_between)
+    return of(configurations, is_between)
 
 
-def quality_c(cells):
-    """Returns the mean SQRs of A, C and B in the easiest and the hardest third of the cells by A's success rate."""
-    both = sorted(((lines[A].success, lines) for lines in cells.values() if lines[A].solved and lines[B].solved and lines[C].solved),
+def quality_c(configurations):
+    """Returns the mean SQRs of A, C and B in the easiest and the hardest third of the configurations, in the order of
+    A's success rate."""
+    both = sorted(((lines[A].success, lines) for lines in configurations.values()
+                   if lines[A].solved and lines[B].solved and lines[C].solved),
                   key=lambda entry: -entry[0])
     third = max(1, len(both) // 3)
     parts = []
@@ -191,8 +201,8 @@ CLAIMS = {"success-ratio": success_ratio, "speed-up": speed_up, "quality-loss": 
 
 
 def claims_table(rows):
-    cells = comparison(rows)
-    ours = conditions(rows) | {name: claim(cells) for name, claim in CLAIMS.items()}
+    configurations = comparison(rows)
+    ours = conditions(rows) | {name: claim(configurations) for name, claim in CLAIMS.items()}
     return tables.table(["where", "published", "here"],
                         [[each["where"], each["published"], ours[each["claim"]]] for each in published()
                          if each["claim"] in ours])
@@ -211,19 +221,21 @@ def omega_table(rows):
                          for each in published() if each["claim"] in shown])
 
 
-MEASURES = {"cells, success": lambda one: f"{100 * one.success:.0f}",
-            "cells, runtime": lambda one: seconds(one.mean_runtime_s),
-            "cells, quality": lambda one: f"{one.mean_sqr:.3f}" if one.solved else "-"}
+MEASURES = {"configurations, success": lambda one: f"{100 * one.success:.0f}",
+            "configurations, runtime": lambda one: seconds(one.mean_runtime_s),
+            "configurations, quality": lambda one: f"{one.mean_sqr:.3f}" if one.solved else "-"}
 
 
-def cells_table(rows, shown):
+def configurations_table(rows, shown):
     return tables.table(["map", "N", "M", *NAMES.values()],
-                        [[cell.map, cell.agents, cell.tasks, *[shown(lines[method]) for method in NAMES]]
-                         for cell, lines in comparison(rows).items()])
+                        [[configuration.map, configuration.agents, configuration.tasks,
+                          *[shown(lines[method]) for method in NAMES]]
+                         for configuration, lines in comparison(rows).items()])
 
 
 PARTS = {"claims": (claims_table, GUIDE), "omega": (omega_table, GUIDE)} | {
-    name: (functools.partial(cells_table, shown=shown), PAPER / "cells.md") for name, shown in MEASURES.items()}
+    name: (functools.partial(configurations_table, shown=shown), PAPER / "configurations.md")
+    for name, shown in MEASURES.items()}
 
 
 def marked(name):

@@ -47,10 +47,12 @@ def read_instance(path):
     rows = [["." if letter in ".GSE" else "@" for letter in row.strip()] for row in rows if row.strip()]
     height, width = len(rows), len(rows[0])
     places = {y * width + x for y in range(height) for x in range(width) if rows[y][x] == "."}
-    links = {place: [q for q, near in ((place - width, True), (place + 1, place % width < width - 1), (place + width, True),
+    links = {place: [q for q, near in ((place - width, True), (place + 1, place % width < width - 1),
+                                       (place + width, True),
                                        (place - 1, place % width > 0)) if near and q in places] for place in places}
     cells = [[agent[key] for agent in agents] for key in ("start", "goal")]
-    expect(all(isinstance(cell, list) and [type(x) for x in cell] == [int, int] and 0 <= cell[0] < width and cell[1] * width + cell[0] in places
+    expect(all(isinstance(cell, list) and [type(x) for x in cell] == [int, int] and 0 <= cell[0] < width
+               and cell[1] * width + cell[0] in places
                for some in cells for cell in some), "expected passable cells")
     starts, goals = ([y * width + x for x, y in some] for some in cells)
     expect(len(set(starts)) == len(starts) and len(set(goals)) == len(goals), "expected distinct starts and goals")
@@ -121,7 +123,8 @@ def check(instance, lines):
     links, starts, goals, instance_sum = read_instance(instance)
     to_go = [distances(links, goal) for goal in goals]
     head = [next(lines) for _ in range(4)]
-    expect(head[0] == "grove-proof 1" and head[2] in ("following yes", "following no") and head[3].startswith("theorem "),
+    expect(head[0] == "grove-proof 1" and head[2] in ("following yes", "following no")
+           and head[3].startswith("theorem "),
            "this header is not supported here")
     expect(head[1] == f"instance {instance_sum}", "the certificate is for another instance")
     bound = float("inf") if head[3] == "theorem inf" else number(head[3].removeprefix("theorem "))
@@ -160,7 +163,8 @@ def lines_of(path):
     """
     with path.open("rb") as file:
         compressed = file.read(4) == b"\x28\xb5\x2f\xfd"
-    source = subprocess.Popen(["zstd", "-dcq", "--", path], stdout=subprocess.PIPE).stdout if compressed else path.open("rb")
+    source = subprocess.Popen(["zstd", "-dcq", "--", path],
+                              stdout=subprocess.PIPE).stdout if compressed else path.open("rb")
     with source:
         while line := source.readline(LONGEST_LINE):
             expect(line.endswith(b"\n"), "expected the end of a line")

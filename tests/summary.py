@@ -46,7 +46,8 @@ def cases_of(program):
         elif name:
             lines.append(line)
     if name:
-        cases.append(Result(name, "failed", "\n".join([*lines, f"{program.name} ended here; its other cases did not run"])))
+        cases.append(Result(name, "failed",
+                            "\n".join([*lines, f"{program.name} ended here; its other cases did not run"])))
     elif program.outcome == "failed" and all(case.outcome != "failed" for case in cases):
         cases.append(program)
     return cases

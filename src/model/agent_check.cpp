@@ -131,7 +131,7 @@ class AgentCheck {
     check_sequence();
     const Time finish = finishes();
     if (plan_.cost != finish)
-      report_.add(place_ + "/cost", "agent '{}' finishes at time {}, but the plan says {}",
+      report_.add(place_ + "/cost", "agent '{}' finishes at time {}, but the plan claims {}",
                   agent_.id, finish, plan_.cost);
     return finish;
   }

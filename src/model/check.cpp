@@ -140,7 +140,7 @@ Status deserved_status(Cost cost, Cost lower_bound, Omega omega) {
 
 void check_claims(const Solution& solution, Cost cost, ViolationReport& report) {
   if (solution.plan->cost != cost)
-    report.add("/cost", "the agents' costs add up to {}, but the plan says {}", cost,
+    report.add("/cost", "the agents' costs add up to {}, but the plan claims {}", cost,
                solution.plan->cost);
   if (solution.lower_bound < 0)
     report.add("/lower_bound", "found {}; expected at least 0", solution.lower_bound);

@@ -201,8 +201,8 @@ class WithTheProgram(Folder):
             "echo cost {agents}", r"cost (\d+)", code=1)
         self.assertIn("\nPROOFS CONTRADICT EACH OTHER", done.stderr)
         bounds = {row["agents"]: row["lower_bound"] for row in rows if row["method"] == "Grove"}
-        self.assertIn(f"{MAP}-random-1-100: a plan costs 100 (echo), below a proven lower bound: {bounds['100']} (Grove",
-                      done.stderr)
+        self.assertIn(f"{MAP}-random-1-100: a plan costs 100 (echo), "
+                      f"below a proven lower bound: {bounds['100']} (Grove", done.stderr)
         report = subprocess.run([GROVE, "report", self.folder / "rows.csv", "-o", self.folder / "report"],
                                 capture_output=True, text=True, check=False)
         self.assertEqual(report.returncode, 0, report.stderr)
@@ -245,7 +245,8 @@ print("cost", cost)
         self.assertIn("--other x: found 'z'; expected a group that is the cost", done.stderr)
 
     def test_grove_report_reads_the_rows(self):
-        self.experiment("paper", "--agents", "2", "--tasks", "4", "--scenarios", "1", "--map", MAP, "--", "--omega", "0")
+        self.experiment("paper", "--agents", "2", "--tasks", "4", "--scenarios", "1", "--map", MAP, "--", "--omega",
+                        "0")
         subprocess.run([GROVE, "report", self.folder / "rows.csv", "-o", self.folder / "report"], check=True,
                        capture_output=True)
         with open(self.folder / "report/summary_cts.csv", encoding="utf-8") as file:

@@ -63,7 +63,8 @@ class Paper(unittest.TestCase):
 
     def test_signals_reach_the_bench(self):
         with tempfile.TemporaryDirectory() as name:
-            running = subprocess.Popen([sys.executable, PAPER, name, "--grove", GROVE, "--agents", "20", "--tasks", "50"],
+            running = subprocess.Popen([sys.executable, PAPER, name, "--grove", GROVE, "--agents", "20", "--tasks",
+                                        "50"],
                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
             wait_until("a run", (Path(name) / "comparison/.running").exists, running)
             running.send_signal(signal.SIGTERM)

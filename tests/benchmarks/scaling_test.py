@@ -29,7 +29,8 @@ class Results(unittest.TestCase):
             self.assertGreaterEqual(min(shares), 0, row)
 
     def test_pages_agree_with_the_result_files(self):
-        pages = [path.read_text(encoding="utf-8") for path in (RESULTS / "README.md", BENCHMARKS / "tried-and-rejected.md")]
+        pages = [path.read_text(encoding="utf-8")
+                 for path in (RESULTS / "README.md", BENCHMARKS / "tried-and-rejected.md")]
         rows = {name: scaling.read(RESULTS / f"{name}.csv")
                 for name in ("simulated", "bound", "long", "earlier", "weak", "compared", "processor")}
         for table in (scaling.simulated_table(rows["simulated"], rows["bound"]),

@@ -26,7 +26,8 @@ VALUES = {
     "--omega": "0.5", "--time-limit": "20", "--memory-limit": "1", "--threads": "1",
     "--method": "auto", "--policy": "fixed", "--rtsp": "dp", "--seed": "3", "--checkpoint": "other",
     "--checkpoint-interval": "60", "--resume": "never", "--start": "start.json",
-    "--incumbents": "best", "--proof": "bound.proof", "--output": "other.json", "--require-plan": None, "--log": "run.log",
+    "--incumbents": "best", "--proof": "bound.proof", "--output": "other.json", "--require-plan": None,
+    "--log": "run.log",
     "--log-format": "jsonl", "--verbose": None, "--quiet": None, "--confine": None,
 }
 TECHNIQUES = {"--without": "bypass"}  # a technique of the free policy only
@@ -116,7 +117,8 @@ class Scripts(MpiTest):
     def test_array_counts_a_last_line_without_a_newline(self):
         command = re.search(r'--array=1-"\$\((.*?)\)"', (CLUSTER / "array.sbatch").read_text(encoding="utf-8")).group(1)
         (self.folder / "instances.txt").write_text(f"{DATA}/missing.cts.json\n{INSTANCE}", encoding="utf-8")
-        lines = subprocess.run(["sh", "-c", command], cwd=self.folder, check=True, text=True, stdout=subprocess.PIPE).stdout
+        lines = subprocess.run(["sh", "-c", command], cwd=self.folder, check=True, text=True,
+                               stdout=subprocess.PIPE).stdout
         self.assertEqual(lines, "2\n")
         self.run_script("array.sbatch", "instances.txt", granted={"SLURM_ARRAY_TASK_ID": "2"})
         checked_plan(INSTANCE, self.folder / "plans/2-first.plan.json")
@@ -177,7 +179,8 @@ wait $!''')
 "{program("GROVE_MPI")}" "$@"
 for log in *.log; do echo "Warning: 1 of 2 ranks {warning}: ..." >>"$log"; done
 exit 137''')
-            output = self.run_script("preempt.sbatch", hard_instance(self.folder), "--time-limit", "0", grove_mpi=silent)
+            output = self.run_script("preempt.sbatch", hard_instance(self.folder), "--time-limit", "0",
+                                     grove_mpi=silent)
             self.assertNotIn("restart", output)
             self.assertEqual((self.folder / "runs").read_text().count("\n"), 1)
             for file in (self.folder / "runs", *self.folder.glob("*.log")):

@@ -25,7 +25,8 @@ class SolveScript(MpiTest):
             self.assertEqual(plan["status"], "optimal", log)
 
     def test_job_runs_with_all_requests_of_memory_and_nodes(self):
-        for options in (["--mem=0"], ["--mem-per-cpu=500M"], ["--exclusive"], ["--exclusive", "--mem-per-cpu=500M"], []):
+        for options in (["--mem=0"], ["--mem-per-cpu=500M"], ["--exclusive"], ["--exclusive", "--mem-per-cpu=500M"],
+                        []):
             with self.subTest(options), tempfile.TemporaryDirectory() as folder:
                 codes = submit_and_wait("--cpus-per-task=1", "--output=log", *options, CLUSTER / "solve.sbatch", EASY,
                                         "--output", "plan.json", cwd=folder)

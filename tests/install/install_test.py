@@ -62,7 +62,8 @@ int main(int argc, char** argv) {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   bool well = refused("/deterministic", [&] { grove::mpi::solve(robots(5), {.deterministic = true}); });
   well = well && refused("/instance", [&] { grove::mpi::solve(robots(5 - rank)); });
-  well = well && refused(rank == 1 ? "/omega" : "", [&] { grove::mpi::solve(robots(5), {.omega = rank == 1 ? -1.0 : 0.0}); });
+  well = well && refused(rank == 1 ? "/omega" : "",
+                         [&] { grove::mpi::solve(robots(5), {.omega = rank == 1 ? -1.0 : 0.0}); });
   const grove::Instance instance = robots(5);
   for (int i = 0; i < 3; ++i) {
     const auto solution = grove::mpi::solve(instance, {.time_limit = 60});

@@ -180,7 +180,7 @@ TEST_F(PlanImport, DerivesTheOrderOfTasks) {
 
 TEST_F(PlanImport, LeavesFalseClaimsToTheChecker) {
   EXPECT_EQ(first_violation(replaced(kText, "soc=10", "soc=9")),
-            "/cost: the agents' costs add up to 10, but the plan says 9");
+            "/cost: the agents' costs add up to 10, but the plan claims 9");
   EXPECT_EQ(first_violation(replaced(kText, "soc_lb=8", "soc_lb=11")),
             "/lower_bound: found 11; expected at most 10, the cost of this plan");
   EXPECT_EQ(

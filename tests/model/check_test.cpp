@@ -150,17 +150,17 @@ TEST(Check, RefusesPartialPlans) {
 
 TEST(Check, RefusesAWrongTotalCost) {
   EXPECT_MENTIONS(verdict([](Solution& s) { s.plan->cost = 14; }),
-                  "/cost: the agents' costs add up to 15, but the plan says 14");
+                  "/cost: the agents' costs add up to 15, but the plan claims 14");
 }
 
 TEST(Check, RefusesAWrongAgentCost) {
   EXPECT_EQ(verdict(1, [](AgentPlan& b) { b.cost = 4; }),
-            "/agents/1/cost: agent 'b' finishes at time 5, but the plan says 4");
+            "/agents/1/cost: agent 'b' finishes at time 5, but the plan claims 4");
 }
 
 TEST(Check, CountsWaitsBeforeTheFinish) {
   EXPECT_MENTIONS(verdict(2, [](AgentPlan& m) { m.path.insert(m.path.begin(), m.path.front()); }),
-                  "agent 'm' finishes at time 3, but the plan says 2");
+                  "agent 'm' finishes at time 3, but the plan claims 2");
 }
 
 TEST(Check, RefusesAWrongStart) {

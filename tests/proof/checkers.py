@@ -77,7 +77,8 @@ def small_checker(instance, certificate):
 
 def small_checker_within(memory, instance, certificate):
     """Runs docs/proof_checker.py in a separate process with a limit of `memory` bytes."""
-    code = f"import sys; sys.path.insert(0, {str(SMALL.parent)!r}); import proof_checker as checker; checker.MEMORY = {memory}; checker.run(*sys.argv[1:])"
+    code = f"import sys; sys.path.insert(0, {str(SMALL.parent)!r}); import proof_checker as checker; " \
+        f"checker.MEMORY = {memory}; checker.run(*sys.argv[1:])"
     with tempfile.TemporaryDirectory() as name:
         (Path(name) / "proof").write_bytes(certificate)
         return Verdict([sys.executable, "-c", code, instance.write(Path(name)), Path(name) / "proof"])

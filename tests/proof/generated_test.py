@@ -46,7 +46,8 @@ def mutants(rng, certificate, count):
         change = rng.choice(["number", "number", "number", "drop", "twice", "leaf", "swap"])
         if change == "number" and numbers and not mutant[at].startswith("theorem"):
             found = rng.choice(numbers)
-            mutant[at] = mutant[at][:found.start()] + str(max(0, int(found.group()) + rng.choice([-2, -1, 1, 2]))) + mutant[at][found.end():]
+            changed = max(0, int(found.group()) + rng.choice([-2, -1, 1, 2]))
+            mutant[at] = mutant[at][:found.start()] + str(changed) + mutant[at][found.end():]
         elif change == "drop":
             del mutant[at]
         elif change == "twice":
@@ -71,17 +72,21 @@ class Generated(unittest.TestCase):
         for rng, kind, instance, following, least in instances(60):
             if least == INF:
                 found = checkers.verify(instance, "\n".join(
-                    ["grove-proof 1", f"instance {instance.checksum()}", f"following {'yes' if following else 'no'}", "theorem inf", "joint", "end\n"]))
+                    ["grove-proof 1", f"instance {instance.checksum()}", f"following {'yes' if following else 'no'}",
+                     "theorem inf", "joint", "end\n"]))
                 self.assertEqual(found.text, f"verified: there is no plan{checkers.following_note(following)}\n")
                 seen["none"] += 1
                 continue
             try:
-                certificate = Prover(instance, rng, following, [rule for rule in RULES if rng.random() < 0.6], 150).certificate(least)
+                certificate = Prover(instance, rng, following, [rule for rule in RULES if rng.random() < 0.6],
+                                     150).certificate(least)
             except TooLong:
                 seen["too long"] += 1
                 continue
             found = checkers.verify(instance, certificate)
-            self.assertEqual(found.text, f"verified: no plan costs less than {least}{checkers.following_note(following)}\n", f"{kind}\n{certificate}")
+            self.assertEqual(found.text,
+                             f"verified: no plan costs less than {least}{checkers.following_note(following)}\n",
+                             f"{kind}\n{certificate}")
             self.assertEqual(checkers.verify(instance, raised(certificate)).code, 1, certificate)
             for mutant in mutants(rng, certificate, 4):
                 found = checkers.verify(instance, mutant)
@@ -90,7 +95,8 @@ class Generated(unittest.TestCase):
                 seen[found.code] += 1
             for line in certificate.split("\n"):
                 seen[" ".join(re.findall("[a-z]+", line)[:2])] += 1
-        for rule in ("split bar", "split move", "split norest", "split pass", "split stop", "leaf", "joint", "later", "lemma", "demand bar"):
+        for rule in ("split bar", "split move", "split norest", "split pass", "split stop", "leaf", "joint", "later",
+                     "lemma", "demand bar"):
             self.assertTrue(seen[rule], f"{rule} occurs in {seen}")
         self.assertTrue(seen[1] > 80 * FACTOR and seen["none"] and seen["too long"] < 10 * FACTOR, seen)
 
@@ -99,25 +105,33 @@ class Generated(unittest.TestCase):
         """Checks agents with 12 stops, for which the checker does not examine all sets of stops."""
         for seed in range(int(2 * FACTOR)):
             rng = random.Random(3 * 10**6 + seed)
-            world = World(rng.choice([["............."], ["......", ".@@@@.", "......"], [".......", "@.@.@.@", "@.@.@.@"]]))
+            world = World(rng.choice([["............."], ["......", ".@@@@.", "......"],
+                                      [".......", "@.@.@.@", "@.@.@.@"]]))
             cells = [place for place in range(world.count) if world.passable(place)]
             turn = seed % 4 == 3
             agent = Agent((rng.choice(cells), *("N" if turn else "")), rng.choice([None, rng.choice(cells)]), int(turn))
             places = rng.sample(cells, 12)
-            instance = Instance(world, [agent], [(place, int(seed % 4 > 0 and place == places[0]), [0]) for place in places])
+            instance = Instance(world, [agent],
+                                [(place, int(seed % 4 > 0 and place == places[0]), [0]) for place in places])
             bars = [(0, "bar", rng.choice(cells), *[rng.randint(1, 20)] * 2) for _ in range(3)]
-            bars += [(0, "bar", place, begin, begin + rng.randint(5, 20)) for place in rng.sample(cells, 2) for begin in [rng.randint(1, 30)]]
+            bars += [(0, "bar", place, begin, begin + rng.randint(5, 20)) for place in rng.sample(cells, 2)
+                     for begin in [rng.randint(1, 30)]]
             free = least_cost(instance, 0, [])[0]
             late = [(0, "norest", place, free + rng.randint(8, 12)) for place in cells]
             order = rng.sample(range(12), 12)
-            for constraints in (bars[:3], late, [*bars, *((0, "stop", number, task) for number, task in enumerate(order))]):
+            for constraints in (bars[:3], late,
+                                [*bars, *((0, "stop", number, task) for number, task in enumerate(order))]):
                 cost = least_cost(instance, 0, [constraint[1:] for constraint in constraints])[0]
-                lemma = "\n".join([f"lemma {cost} 0".replace(f"{INF}", "inf"), *("demand " + text(constraint) for constraint in constraints), "leaf"])
-                certificate = f"grove-proof 1\ninstance {instance.checksum()}\nfollowing yes\n{lemma}\ntheorem 0\nleaf\nend\n"
-                self.assertEqual(checkers.verify(instance, certificate).text, "verified: no plan costs less than 0\n", certificate)
+                lemma = "\n".join([f"lemma {cost} 0".replace(f"{INF}", "inf"),
+                                   *("demand " + text(constraint) for constraint in constraints), "leaf"])
+                certificate = f"grove-proof 1\ninstance {instance.checksum()}\nfollowing yes\n{lemma}\n" \
+                    "theorem 0\nleaf\nend\n"
+                self.assertEqual(checkers.verify(instance, certificate).text, "verified: no plan costs less than 0\n",
+                                 certificate)
                 if cost < INF:
                     certificate = certificate.replace(f"lemma {cost}", f"lemma {cost + 1}")
-                    self.assertRegex(checkers.verify(instance, certificate).text, f"costs {cost} and 0 by lemmas", certificate)
+                    self.assertRegex(checkers.verify(instance, certificate).text, f"costs {cost} and 0 by lemmas",
+                                     certificate)
 
     def test_faulty_proofs_are_refused(self):
         counts = Counter()
@@ -131,7 +145,8 @@ class Generated(unittest.TestCase):
                     continue
                 self.assertTrue(prover.is_faulty, certificate)
                 found = checkers.verify(instance, certificate)
-                self.assertEqual(found.code, 1, f"{number}: {fault}, {kind}, least cost {least}: {found.text}\n{certificate}")
+                self.assertEqual(found.code, 1,
+                                 f"{number}: {fault}, {kind}, least cost {least}: {found.text}\n{certificate}")
                 counts[fault] += 1
         self.assertGreaterEqual(len(counts), 6, counts)
         self.assertGreater(sum(counts.values()), 20 * FACTOR, counts)
@@ -149,7 +164,8 @@ class Generated(unittest.TestCase):
                 continue
             for proof in [certificate, raised(certificate), *mutants(rng, raised(certificate, -1), 3)]:
                 one, two = checkers.verify(instance, proof), checkers.small_checker(instance, proof)
-                self.assertEqual((one.code == 0, one.text if one.code == 0 else ""), (two.code == 0, two.text if two.code == 0 else ""), proof)
+                self.assertEqual((one.code == 0, one.text if one.code == 0 else ""),
+                                 (two.code == 0, two.text if two.code == 0 else ""), proof)
                 verdicts[one.code == 0] += 1
 
         self.assertGreater(sum(verdicts.values()), 200 * FACTOR)
@@ -158,7 +174,8 @@ class Generated(unittest.TestCase):
     @staticmethod
     def simple(certificate):
         """Returns whether each split of the certificate is also valid without `following no`."""
-        return all(len(set(re.findall(r"bar \d+ (\d+)", line))) == 1 for line in certificate.split("\n") if " bar " in line)
+        return all(len(set(re.findall(r"bar \d+ (\d+)", line))) == 1
+                   for line in certificate.split("\n") if " bar " in line)
 
 
 if __name__ == "__main__":

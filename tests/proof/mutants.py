@@ -5,10 +5,11 @@
     mutants.py FOLDER [--count N] [--only K,K] [--jobs J]
 
 Copies the sources to FOLDER, inserts the bugs of mutants.txt, and builds once. The environment variable GROVE_MUTANT
-selects the bug of a process. For each bug, and each part of the search that the bug is tried on, grove-fuzz-certificates
-solves N tiny instances and checks their certificates with grove-verify. Prints one table for each kind of result. A row
-counts for one bug the claims that were false (the oracle knows the optimum), the certificates that were refused or proved
-less than was claimed, and the false claims that were verified. Exit code 1: a false claim was verified.
+selects the bug of a process. For each bug, and each part of the search that the bug is tried on,
+grove-fuzz-certificates solves N tiny instances and checks their certificates with grove-verify. Prints one table for
+each kind of result. A row counts for one bug the claims that were false (the oracle knows the optimum), the
+certificates that were refused or proved less than was claimed, and the false claims that were verified. Exit code 1: a
+false claim was verified.
 
 """
 import argparse

@@ -36,8 +36,10 @@ class Prover:
         all_agents = list(range(len(self.instance.agents)))
         if "lemma" in self.rules:
             for _ in range(self.rng.randint(0, 3)):
-                self.lemma(sorted(self.rng.sample(all_agents, min(2, len(all_agents)))), self.some_constraints(all_agents))
-        head = ["grove-proof 1", f"instance {self.instance.checksum()}", f"following {'yes' if self.following else 'no'}"]
+                self.lemma(sorted(self.rng.sample(all_agents, min(2, len(all_agents)))),
+                           self.some_constraints(all_agents))
+        head = ["grove-proof 1", f"instance {self.instance.checksum()}",
+                f"following {'yes' if self.following else 'no'}"]
         theorem = [f"theorem {bound}", *self.proof(all_agents, bound, [])]
         return "\n".join([*head, *self.lines, *theorem, "end"]) + "\n"
 
@@ -55,7 +57,8 @@ class Prover:
             proof = self.proof(agents, bound, constraints)
         except TooLong:
             return None
-        self.lines += [" ".join(map(str, ["lemma", "inf" if bound == INF else bound, *agents])), *("demand " + text(d) for d in constraints), *proof]
+        self.lines += [" ".join(map(str, ["lemma", "inf" if bound == INF else bound, *agents])),
+                       *("demand " + text(d) for d in constraints), *proof]
         self.lemmas.append((agents, bound, constraints))
         return len(self.lemmas) - 1
 
@@ -66,7 +69,8 @@ class Prover:
             if bound == INF:
                 return INF
             try:
-                Prover(self.instance, self.rng, self.following, (), 40, self.known).proof(agents, bound + 1, constraints)
+                Prover(self.instance, self.rng, self.following, (), 40,
+                       self.known).proof(agents, bound + 1, constraints)
             except TooLong:
                 return bound
 
@@ -87,7 +91,8 @@ class Prover:
         costs = {agent: self.least(agent, constraints)[0] for agent in agents}
         if sum(costs.values()) >= bound:
             return ["leaf"], []
-        names = [n for n, (own, _, needed) in enumerate(self.lemmas) if set(own) <= set(agents) and set(needed) <= set(constraints)]
+        names = [n for n, (own, _, needed) in enumerate(self.lemmas) if set(own) <= set(agents)
+                 and set(needed) <= set(constraints)]
         if self.cover(costs, names) >= bound:
             return [" ".join(["leaf", *map(str, names)])], []
         self.left -= 1
@@ -138,12 +143,15 @@ class Prover:
         self.rules, self.left, self.most = rules, left, most
         if number is None:
             return None
-        sides = [[*constraints, (agent, "norest", self.instance.plain_goal(agent), end)] for agent, end in zip(pair, ends)]
+        sides = [[*constraints, (agent, "norest", self.instance.plain_goal(agent), end)]
+                 for agent, end in zip(pair, ends)]
         return [f"later {pair[0]} {ends[0]} {pair[1]} {ends[1]} {number}"], sides
 
     def order(self, agents, constraints):
-        choices = [(agent, k, j) for agent in agents for stops in [self.instance.stops(agent)] for k in range(len(stops)) for j in stops
-                   if len(stops) > 1 and not any(d[:4] == (agent, kind, k, j) for d in constraints for kind in ("stop", "nostop"))]
+        choices = [(agent, k, j) for agent in agents for stops in [self.instance.stops(agent)]
+                   for k in range(len(stops)) for j in stops
+                   if len(stops) > 1
+                   and not any(d[:4] == (agent, kind, k, j) for d in constraints for kind in ("stop", "nostop"))]
         if not choices:
             return None
         agent, k, j = self.rng.choice(choices)
@@ -220,7 +228,8 @@ class FaultyProver(Prover):
             own, bound, constraints = self.lemmas[number]
             if self.fault == "lemma" and bound < INF:
                 # A lemma with too high a bound, whose proof consists of a leaf that does not show it.
-                self.lines += [" ".join(map(str, ["lemma", bound + 2, *own])), *("demand " + text(d) for d in constraints), "leaf"]
+                self.lines += [" ".join(map(str, ["lemma", bound + 2, *own])),
+                               *("demand " + text(d) for d in constraints), "leaf"]
                 self.lemmas.append((own, bound + 2, constraints))
                 self.is_faulty = True
             elif self.fault == "scope":
@@ -231,7 +240,8 @@ class FaultyProver(Prover):
     def some_constraints(self, agents):
         # Bars without an end, so that lemmas have high bounds under their constraints.
         if self.fault == "scope":
-            return [(agent, "bar", place, 0, INF) for agent in agents for place in self.rng.sample(range(self.instance.world.count), 2)]
+            return [(agent, "bar", place, 0, INF) for agent in agents
+                    for place in self.rng.sample(range(self.instance.world.count), 2)]
         return super().some_constraints(agents)
 
     def later(self, agents, constraints):

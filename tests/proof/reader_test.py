@@ -59,17 +59,20 @@ class Reader(unittest.TestCase):
             broken = bytearray(whole)
             broken[rng.randrange(len(broken))] ^= 1 << rng.randrange(8)
             found = checkers.verify(CROSS, bytes(broken))
-            self.assertTrue(found.code in (1, 2) or (found.code, found.text) == (0, "verified: no plan costs less than 5\n"), found.text)
+            self.assertTrue(found.code in (1, 2)
+                            or (found.code, found.text) == (0, "verified: no plan costs less than 5\n"), found.text)
 
     def test_decompression_bomb_keeps_the_memory_limit(self):
         """Checks less than 60,000 bytes that decompress to hundreds of megabytes of nested splits."""
         bomb = compressed(GOOD.split("lemma")[0].encode() + b"theorem 5\n") + many(b"split 0 bar 4 1 1 | 1 bar 4 1 1\n")
-        found = self.ends(bomb, (1,), "^refused: line [0-9]+: the memory limit is reached\n", options=("--memory-limit", "0.05"), seconds=60)
+        found = self.ends(bomb, (1,), "^refused: line [0-9]+: the memory limit is reached\n",
+                          options=("--memory-limit", "0.05"), seconds=60)
         self.assertLess(found.memory, 0.05e9 + 150e6)  # the limit, plus the program and the window of zstd
 
     @unittest.skipUnless(shutil.which("zstd"), "no zstd")
     def test_small_checker_keeps_its_memory_limit(self):
-        bomb = compressed(certificate(HALL, "theorem 99").removesuffix("end\n").encode()) + many(b"split 0 bar 7 2 2 | 1 bar 7 2 2\n")
+        head = certificate(HALL, "theorem 99").removesuffix("end\n")
+        bomb = compressed(head.encode()) + many(b"split 0 bar 7 2 2 | 1 bar 7 2 2\n")
         found = checkers.small_checker_within(100_000_000, HALL, bomb)
         self.assertEqual(found.code, 1, found.text)
         self.assertRegex(found.text, "^refused: needs more than 0.1 GB of memory\n$")
@@ -87,10 +90,14 @@ class Reader(unittest.TestCase):
     def test_invalid_lines_are_refused(self):
         lines = GOOD.split("\n")[:-1]
         for at in range(len(lines)):
-            for other in ("", " ", "leaf ", "leaf  0", "leaf x", "leaf -1", "leaf +0", "joint 0", "prices 1", "lemma", "lemma 5", "split", "split |",
-                          "split 0 bar 4 1 1", "split 0 bar 4 1 1|1 bar 4 1 1", "split 0 bar 4 1 1 | 1 bar 4 1", "split 0 bar 4 1 1 | 1 bar 4 1 1 1",
-                          "demand", "demand 0 jump 4 1 1", "later", "later 0 2 1 2", "later 0 2 1 2 0 0", "theorem", "theorem -1", "theorem 5 5",
-                          "theorem inf ", "following", "instance", "instance 0", "grove-proof 2", "end ", "\t", "\0", "é"):
+            for other in ("", " ", "leaf ", "leaf  0", "leaf x", "leaf -1", "leaf +0", "joint 0", "prices 1", "lemma",
+                          "lemma 5", "split", "split |",
+                          "split 0 bar 4 1 1", "split 0 bar 4 1 1|1 bar 4 1 1", "split 0 bar 4 1 1 | 1 bar 4 1",
+                          "split 0 bar 4 1 1 | 1 bar 4 1 1 1",
+                          "demand", "demand 0 jump 4 1 1", "later", "later 0 2 1 2", "later 0 2 1 2 0 0", "theorem",
+                          "theorem -1", "theorem 5 5",
+                          "theorem inf ", "following", "instance", "instance 0", "grove-proof 2", "end ", "\t", "\0",
+                          "é"):
                 self.ends("\n".join([*lines[:at], other, *lines[at + 1:]]) + "\n")
 
     def test_random_bytes_are_refused(self):
@@ -106,21 +113,29 @@ class Reader(unittest.TestCase):
         for _ in range(300):
             changed = list(words)
             for _ in range(rng.randint(1, 3)):
-                changed[rng.randrange(len(words))] = rng.choice(["inf", "0", "1", "4", str(2**30), str(2**32), str(2**64), "x", "bar", "|", "9" * 50])
+                changed[rng.randrange(len(words))] = rng.choice(["inf", "0", "1", "4", str(2**30), str(2**32),
+                                                                 str(2**64), "x", "bar", "|", "9" * 50])
             found = checkers.verify(CROSS, " ".join(changed))
             self.assertTrue(found.code in (1, 2) or found.text == "verified: no plan costs less than 5\n", changed)
 
     def test_huge_numbers_are_refused(self):
         for number in (2**30 - 1, 2**30, 2**31, 2**32 - 1, 2**63, 2**64 - 1, 2**64, 10**100):
-            for lines in (["theorem {}", "leaf"], ["theorem {}", "joint"], ["lemma {} 0", "leaf"], ["lemma 0 {}", "leaf"], ["theorem 5", "leaf {}"],
-                          ["theorem 5", "split 0 bar 4 {0} {0} | 1 bar 4 {0} {0}", "leaf", "leaf"], ["theorem 5", "split 0 bar {0} 1 1 | 1 bar {0} 1 1"],
-                          ["theorem 5", "split 0 norest 5 {0} | 0 rest 5 {0}", "leaf", "leaf"], ["theorem 9", "later {0} {0} {0} {0} {0}"],
-                          ["theorem 5", "split 0 stop {0} {0} | 0 nostop {0} {0}"], ["theorem 5", "prices", "place 4 {} 1024", "end"],
-                          ["theorem 5", "prices", "finish 0 {0} 1 {0} 0", "end"], ["lemma 5 0 1", "demand 0 bar 4 0 {}", "joint"]):
-                self.ends(certificate(CROSS, *(line.format(number) for line in lines)), (1,), "^refused: ", options=["--time-limit", "1"], seconds=2)
+            for lines in (["theorem {}", "leaf"], ["theorem {}", "joint"], ["lemma {} 0", "leaf"],
+                          ["lemma 0 {}", "leaf"], ["theorem 5", "leaf {}"],
+                          ["theorem 5", "split 0 bar 4 {0} {0} | 1 bar 4 {0} {0}", "leaf", "leaf"],
+                          ["theorem 5", "split 0 bar {0} 1 1 | 1 bar {0} 1 1"],
+                          ["theorem 5", "split 0 norest 5 {0} | 0 rest 5 {0}", "leaf", "leaf"],
+                          ["theorem 9", "later {0} {0} {0} {0} {0}"],
+                          ["theorem 5", "split 0 stop {0} {0} | 0 nostop {0} {0}"],
+                          ["theorem 5", "prices", "place 4 {} 1024", "end"],
+                          ["theorem 5", "prices", "finish 0 {0} 1 {0} 0", "end"],
+                          ["lemma 5 0 1", "demand 0 bar 4 0 {}", "joint"]):
+                self.ends(certificate(CROSS, *(line.format(number) for line in lines)), (1,), "^refused: ",
+                          options=["--time-limit", "1"], seconds=2)
             for rows in (["place 4 1 {}"], ["place 4 1 {}"] * 2, ["edge 4 5 1 {0}", "place 5 2 {0}"]):
                 rows = [row.format(number) for row in rows]
-                self.ends(certificate(CROSS, "theorem 6", "prices", *rows, "end"), (1,), "^refused: ", options=["--time-limit", "1"], seconds=2)
+                self.ends(certificate(CROSS, "theorem 6", "prices", *rows, "end"), (1,), "^refused: ",
+                          options=["--time-limit", "1"], seconds=2)
 
     def test_million_splits_without_leaves_are_refused(self):
         for split in ("0 bar 4 1 1 | 1 bar 4 1 1", "0 norest 5 2 | 0 rest 5 2", "1 bar 4 1 1 | 0 bar 4 1 1"):
@@ -143,7 +158,8 @@ class Reader(unittest.TestCase):
         self.ends(text, (1,), "^refused: line 5: the memory limit is reached\n", dense, ["--memory-limit", "0.02"])
 
     def test_usage_errors_are_reported(self):
-        for arguments in ([], ["one"], ["one", "two", "three"], ["one", "two", "--what"], ["one", "two", "--time-limit"],
+        for arguments in ([], ["one"], ["one", "two", "three"], ["one", "two", "--what"],
+                          ["one", "two", "--time-limit"],
                           ["one", "two", "--time-limit", "0"], ["one", "two", "--memory-limit", "nan"]):
             found = checkers.Verdict([checkers.VERIFY, *arguments])
             self.assertEqual(found.code, 2)
@@ -156,13 +172,15 @@ class Reader(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             CROSS.write(folder)
-            cells = [[place % 3 if axis == 0 else place // 3 for place in (agent.start[0], agent.goal) for axis in (0, 1)] for agent in CROSS.agents]
+            cells = [[place % 3 if axis == 0 else place // 3 for place in (agent.start[0], agent.goal)
+                      for axis in (0, 1)] for agent in CROSS.agents]
             rows = ["\t".join(map(str, [0, "maps/tiny.map", 3, 3, *cell, 2.5])) for cell in cells]
             path = folder / "tiny.scen"
             path.write_text("\n".join(["version 1", *rows, "what is not asked for"]) + "\n")
             self.ends(good, (0,), "^verified: no plan costs less than 5\n", path, ["--agents", "2"])
             self.ends(good, (1,), "^refused: line 2: it is of another instance\n", path, ["--agents", "1"])
-            self.ends(good, (2,), "line 4: expected bucket, map, size, start, goal and length\n", path, ["--agents", "3"])
+            self.ends(good, (2,), "line 4: expected bucket, map, size, start, goal and length\n", path,
+                      ["--agents", "3"])
             for options in ([], ["--agents"], ["--agents", "0"], ["--agents", "1.5"], ["--agents", "2", "--map"]):
                 self.assertRegex(checkers.verify(path, good, *options).text, "^grove-verify: error: ")
             self.assertRegex(checkers.verify(CROSS, good, "--agents", "2").text, "^grove-verify: error: ")
@@ -172,12 +190,18 @@ class Reader(unittest.TestCase):
             self.ends(good, (0,), "^verified: ", path, ["--agents", "2", "--map", str(folder / "far/tiny.map")])
             (folder / "far/tiny.map").rename(folder / "tiny.map")
             (folder / "other.map").write_text((folder / "tiny.map").read_text())
-            self.ends(good, (2,), "line 2: expected the name and size of the map\n", path, ["--agents", "2", "--map", str(folder / "other.map")])
+            self.ends(good, (2,), "line 2: expected the name and size of the map\n", path,
+                      ["--agents", "2", "--map", str(folder / "other.map")])
             text = path.read_text()
-            for old, new, message in (("version 1", "version 2", "line 1: expected version 1"), ("\t3\t3\t", "\t3\t4\t", "expected the name and size"),
-                                   ("tiny.map\t3", "tiny.map\t-3", "line 2: expected bucket"), ("\t2.5\n", "\n", "line 2: expected bucket"),
-                                   (rows[1], rows[1].replace("tiny", "other"), "line 3: expected the map of the rows before"),
-                                   (rows[0], rows[0].replace("\t2.5", "\tx"), "line 2: expected bucket"), (rows[1], rows[1].replace("\t3\t3\t1\t", "\t3\t3\t9\t"), "agents 1: expected a passable cell")):
+            for old, new, message in (("version 1", "version 2", "line 1: expected version 1"),
+                                      ("\t3\t3\t", "\t3\t4\t", "expected the name and size"),
+                                      ("tiny.map\t3", "tiny.map\t-3", "line 2: expected bucket"),
+                                      ("\t2.5\n", "\n", "line 2: expected bucket"),
+                                      (rows[1], rows[1].replace("tiny", "other"),
+                                       "line 3: expected the map of the rows before"),
+                                      (rows[0], rows[0].replace("\t2.5", "\tx"), "line 2: expected bucket"),
+                                      (rows[1], rows[1].replace("\t3\t3\t1\t", "\t3\t3\t9\t"),
+                                       "agents 1: expected a passable cell")):
                 path.write_text(text.replace("\n" + old, "\n" + new) if old in rows else text.replace(old, new))
                 self.ends(good, (2,), message, path, ["--agents", "2"])
             path.write_text("\n".join(["version 1", rows[0]]))
@@ -191,17 +215,23 @@ class Reader(unittest.TestCase):
             rng = random.Random(4)
             for _ in range(150):
                 at, to = sorted(rng.randrange(len(good)) for _ in range(2))
-                path.write_text(rng.choice([good[:at], good[:at] + good[min(to, at + 9):], good[:at] + rng.choice('{}[]",:0-9e.') + good[at:]]))
+                path.write_text(rng.choice([good[:at], good[:at] + good[min(to, at + 9):],
+                                            good[:at] + rng.choice('{}[]",:0-9e.') + good[at:]]))
                 found = checkers.verify(path, GOOD)
-                self.assertTrue(found.code in (1, 2) or found.text == "verified: no plan costs less than 5\n", found.text)
+                self.assertTrue(found.code in (1, 2) or found.text == "verified: no plan costs less than 5\n",
+                                found.text)
                 self.assertLess(found.seconds, 2)
-            for text in ("[" * 10**5, '{"a":' * 10**5, "", "null", "[]", "{}", '{"map": 1}', '{"map": "none.map", "agents": [], "tasks": []}', '"\\',
-                         '"\\u12', '"\\ud800"', good + "x", good.replace('"goal"', '"start"'), good.replace("[0, 1]", "[9, 1]"), "1" * 10**6):
+            for text in ("[" * 10**5, '{"a":' * 10**5, "", "null", "[]", "{}", '{"map": 1}',
+                         '{"map": "none.map", "agents": [], "tasks": []}', '"\\',
+                         '"\\u12', '"\\ud800"', good + "x", good.replace('"goal"', '"start"'),
+                         good.replace("[0, 1]", "[9, 1]"), "1" * 10**6):
                 path.write_text(text)
                 self.ends(GOOD, (2,), instance=path)
             path.write_text(good)
-            for text in ("", "type octile\n", good_map.replace("...", "..", 1), good_map.replace("...", "..x", 1), good_map.replace("height 3", "height 4"),
-                         good_map.replace("width 3", "width 99999999999"), good_map.replace("height 3", "height 4000000000"), good_map.replace("width 3", "width 0")):
+            for text in ("", "type octile\n", good_map.replace("...", "..", 1), good_map.replace("...", "..x", 1),
+                         good_map.replace("height 3", "height 4"),
+                         good_map.replace("width 3", "width 99999999999"),
+                         good_map.replace("height 3", "height 4000000000"), good_map.replace("width 3", "width 0")):
                 (folder / "tiny.map").write_text(text)
                 self.ends(GOOD, (2,), instance=path)
 
@@ -238,16 +268,21 @@ class Reader(unittest.TestCase):
                 refused(on_map, put(*where, key, value=1), "unknown key")
         for path, value in (
                 (("roadmap",), "tiny.map"), (("agents",), []), (("agents", 0, "id"), ""), (("agents", 0, "id"), "a\0"),
-                (("agents", 0, "start"), [0.0, 0]), (("agents", 0, "start"), [0, 1e0]), (("agents", 0, "start"), [0, 0, "N"]),
+                (("agents", 0, "start"), [0.0, 0]), (("agents", 0, "start"), [0, 1e0]),
+                (("agents", 0, "start"), [0, 0, "N"]),
                 (("agents", 0, "start"), [-1, 0]), (("agents", 0, "start"), [2, 0]), (("agents", 0, "goal"), [0, 2]),
                 (("agents", 0, "goal"), [2, 2, "N"]), (("agents", 0, "goal"), None), (("agents", 0, "heading"), "N"),
-                (("agents", 0, "turn_steps"), 1), (("agents", 0, "goal_heading"), "N"), (("agents", 0, "motion"), "turning"),
-                (("agents", 1, "motion"), "rolling"), (("agents", 1, "motion"), "Turning"), (("agents", 1, "motion"), True),
+                (("agents", 0, "turn_steps"), 1), (("agents", 0, "goal_heading"), "N"),
+                (("agents", 0, "motion"), "turning"),
+                (("agents", 1, "motion"), "rolling"), (("agents", 1, "motion"), "Turning"),
+                (("agents", 1, "motion"), True),
                 (("agents", 1, "turn_steps"), 2.0), (("agents", 1, "turn_steps"), 0), (("agents", 1, "heading"), "S"),
                 (("agents", 1, "start"), [2, 0, "N", "N", 0]), (("agents", 1, "start"), [2, 0, "N", "E", 0]),
                 (("agents", 1, "start"), [2, 0, "N", "S", 1]), (("agents", 1, "start"), [2, 0, "N", "E", 2]),
-                (("agents", 2, "working"), {"task": "t0", "done": 1, "of": 3}), (("agents", 2, "working"), {"task": "t0", "done": 1.0}),
-                (("agents", 2, "working"), {"task": "t0", "done": 3}), (("agents", 2, "working"), {"task": "t1", "done": 0}),
+                (("agents", 2, "working"), {"task": "t0", "done": 1, "of": 3}),
+                (("agents", 2, "working"), {"task": "t0", "done": 1.0}),
+                (("agents", 2, "working"), {"task": "t0", "done": 3}),
+                (("agents", 2, "working"), {"task": "t1", "done": 0}),
                 (("tasks", 0, "duration"), 3.0), (("tasks", 0, "duration"), -1), (("tasks", 0, "duration"), 65537),
                 (("tasks", 0, "cell"), [1, 1, "N"]), (("tasks", 0, "cell"), [1.0, 1]), (("tasks", 0, "agents"), []),
                 (("tasks", 0, "agents"), ["a2", "a2"]), (("tasks", 0, "agents"), "a2"), (("tasks", 0, "id"), "t1"),
@@ -256,16 +291,20 @@ class Reader(unittest.TestCase):
                 refused(on_map, put(*path, value=value), "expected|unknown")
         refused(on_map, lambda one: one["agents"][1].pop("goal"), "a goal with its heading")
         for path, value in (
-                (("map",), "tiny.roadmap.json"), (("agents", 0, "start"), ["v0", "v1", 1, 0, 0]), (("agents", 0, "start"), ["v1", "v2", 1]),
-                (("agents", 0, "start"), ["v0", "v1", 0]), (("agents", 0, "start"), ["v0", "v1", 3]), (("agents", 0, "start"), ["v0", "v1"]),
+                (("map",), "tiny.roadmap.json"), (("agents", 0, "start"), ["v0", "v1", 1, 0, 0]),
+                (("agents", 0, "start"), ["v1", "v2", 1]),
+                (("agents", 0, "start"), ["v0", "v1", 0]), (("agents", 0, "start"), ["v0", "v1", 3]),
+                (("agents", 0, "start"), ["v0", "v1"]),
                 (("agents", 0, "start"), ["v1", "v2", 1, 0]), (("agents", 0, "start"), [0, 0]),
                 (("agents", 0, "goal"), ["v0", "v1", 1]), (("tasks", 0, "cell"), ["v0", "v1", 1])):
             with self.subTest(path=path, value=value):
                 refused(on_roads, put(*path, value=value), "expected")
         for path, value in (
-                (("edges", 0, "to"), vertex), (("edges", 0, "steps"), 3.0), (("edges", 0, "steps"), 0), (("edges", 0, "one_way"), 1),
+                (("edges", 0, "to"), vertex), (("edges", 0, "steps"), 3.0), (("edges", 0, "steps"), 0),
+                (("edges", 0, "one_way"), 1),
                 (("edges", 0, "bidirectional"), True), (("edges", 0, "capacity"), 1), (("vertices", 0, "at"), [0]),
-                (("vertices", 0, "at"), ["0", 0]), (("vertices", 0, "z"), 1), (("vertices", 0, "id"), ""), (("unit",), "m"), (("vertices",), [])):
+                (("vertices", 0, "at"), ["0", 0]), (("vertices", 0, "z"), 1), (("vertices", 0, "id"), ""),
+                (("unit",), "m"), (("vertices",), [])):
             with self.subTest(path=path, value=value):
                 refused(on_roads, put(*path, value=value), "expected|unknown key", "tiny.roadmap.json")
 
@@ -288,7 +327,8 @@ class Reader(unittest.TestCase):
             self.assertEqual(checkers.small_checker(path, proof).text, "verified: no plan costs less than 4\n")
             path.write_text(text.replace("{", '{"_note": 1, "$schema": "x", '))
             self.assertEqual(checkers.small_checker(path, proof).code, 0)
-            for key in ('"gaol": 1', '"Duration": 1', '"motion": "turning"', '"working": {}', '"roadmap": "x"', '"start": [0, 0], "start": [0, 0]'):
+            for key in ('"gaol": 1', '"Duration": 1', '"motion": "turning"', '"working": {}', '"roadmap": "x"',
+                        '"start": [0, 0], "start": [0, 0]'):
                 for place in ("{", '{"id"'):
                     path.write_text(text.replace(place, "{" + key + ", " + place[1:]))
                     found = checkers.small_checker(path, proof)
@@ -328,11 +368,14 @@ class Reader(unittest.TestCase):
             folder = Path(name)
             path = CROSS.write(folder)
             good = (folder / "tiny.map").read_text()
-            for text in (good + "...\n", good.replace("...", "...  ", 1), good.replace("height 3", "height +3"), good.replace("height ", "height  "),
-                         good.replace("type octile", "type  octile"), good.replace("map\n", "map x\n"), good.replace("width 3", "height 3")):
+            for text in (good + "...\n", good.replace("...", "...  ", 1), good.replace("height 3", "height +3"),
+                         good.replace("height ", "height  "),
+                         good.replace("type octile", "type  octile"), good.replace("map\n", "map x\n"),
+                         good.replace("width 3", "height 3")):
                 (folder / "tiny.map").write_text(text)
                 self.ends(GOOD, (2,), "tiny.map: ", path)
-            for text in (good.replace("\n", "\r\n"), good + "\n\n", good.removesuffix("\n"), good.replace("height 3\nwidth 3", "width 3\nheight 3"),
+            for text in (good.replace("\n", "\r\n"), good + "\n\n", good.removesuffix("\n"),
+                         good.replace("height 3\nwidth 3", "width 3\nheight 3"),
                          good.replace("height 3", "height 3 \t")):
                 (folder / "tiny.map").write_text(text)
                 self.ends(GOOD, (0,), "^verified: ", path)

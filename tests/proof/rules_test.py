@@ -29,11 +29,13 @@ STUCK = Instance(grid(".."), [Agent((0,), 1), Agent((1,), 0)])
 PASSER = Instance(grid("....."), [Agent((1,), 2), Agent((0,), 4)])
 # Two rooms and a corridor of two cells (8 and 9) between cells 7 and 10.
 HALL = Instance(grid("..@@..", "......"), [Agent((6,), 11), Agent((11,), 6)])
-ERRANDS = Instance(grid("....."), [Agent((2,), 2), Agent((3,), 3)], [(0, 0, [0]), (4, 0, [0]), (4, 0, [0]), (1, 2, [0])])
+ERRANDS = Instance(grid("....."), [Agent((2,), 2), Agent((3,), 3)],
+                   [(0, 0, [0]), (4, 0, [0]), (4, 0, [0]), (1, 2, [0])])
 
 
 def certificate(instance, *lines, following="yes"):
-    return "\n".join(["grove-proof 1", f"instance {instance.checksum()}", f"following {following}", *lines, "end"]) + "\n"
+    return "\n".join(["grove-proof 1", f"instance {instance.checksum()}", f"following {following}", *lines,
+                      "end"]) + "\n"
 
 
 class Rules(unittest.TestCase):
@@ -52,7 +54,8 @@ class Rules(unittest.TestCase):
 
     def refused_splits(self, instance, *splits, following="yes"):
         for one in splits:
-            self.refused(2, "may satisfy neither", instance, "theorem 1", f"split {one}", "leaf", "leaf", following=following)
+            self.refused(2, "may satisfy neither", instance, "theorem 1", f"split {one}", "leaf", "leaf",
+                         following=following)
 
     def test_leaf_proves_the_sum_of_costs(self):
         self.verified(CROSS, "theorem 4", "leaf")
@@ -62,8 +65,10 @@ class Rules(unittest.TestCase):
     def test_bar_split_needs_one_place_and_time(self):
         self.verified(CROSS, "theorem 5", *CROSSED)
         self.refused(3, "costs 5", CROSS, "theorem 6", *CROSSED)
-        self.refused_splits(CROSS, "0 bar 4 1 1 | 1 bar 5 1 1", "0 bar 4 1 1 | 1 bar 4 2 2", "0 bar 4 1 2 | 1 bar 4 1 2",
-                            "0 bar 4 1 1 | 0 bar 4 1 1", "0 bar 4 1 inf | 1 bar 4 1 inf", "0 bar 4 1 1 | 1 move 4 5 1 1",
+        self.refused_splits(CROSS, "0 bar 4 1 1 | 1 bar 5 1 1", "0 bar 4 1 1 | 1 bar 4 2 2",
+                            "0 bar 4 1 2 | 1 bar 4 1 2",
+                            "0 bar 4 1 1 | 0 bar 4 1 1", "0 bar 4 1 inf | 1 bar 4 1 inf",
+                            "0 bar 4 1 1 | 1 move 4 5 1 1",
                             "0 bar 4 1 1 | 1 bar 4 0 0")
         self.refused(2, "agent 2 is not among", CROSS, "theorem 1", "split 0 bar 4 1 1 | 2 bar 4 1 1", "leaf", "leaf")
         self.refused(2, "no place 9", CROSS, "theorem 1", "split 0 bar 9 1 1 | 1 bar 9 1 1", "leaf", "leaf")
@@ -87,21 +92,25 @@ class Rules(unittest.TestCase):
         self.verified(SWAP, "theorem 3", "split 0 move 0 1 1 1 | 1 move 1 0 1 1", "leaf", "leaf")
         self.refused(3, "costs 3", SWAP, "theorem 4", "split 0 move 0 1 1 1 | 1 move 1 0 1 1", "leaf", "leaf")
         self.refused_splits(SWAP, "0 move 0 1 1 1 | 1 move 0 1 1 1", "0 move 0 1 1 1 | 1 move 1 0 2 2",
-                            "0 move 0 1 1 2 | 1 move 1 0 1 2", "0 move 0 1 1 1 | 0 move 1 0 1 1", "0 move 0 1 1 1 | 1 move 1 3 1 1",
+                            "0 move 0 1 1 2 | 1 move 1 0 1 2", "0 move 0 1 1 1 | 0 move 1 0 1 1",
+                            "0 move 0 1 1 1 | 1 move 1 3 1 1",
                             "0 move 0 1 1 inf | 1 move 1 0 1 inf")
-        self.refused(2, "expected two different places", SWAP, "theorem 1", "split 0 move 0 0 1 1 | 1 move 0 0 1 1", "leaf", "leaf")
+        self.refused(2, "expected two different places", SWAP, "theorem 1", "split 0 move 0 0 1 1 | 1 move 0 0 1 1",
+                     "leaf", "leaf")
 
     def test_rest_split_needs_one_agent_place_and_time(self):
         self.verified(PASSER, "theorem 7", "split 0 norest 2 2 | 0 rest 2 2", "leaf", "leaf")
         self.verified(PASSER, "theorem 7", "split 0 rest 2 2 | 0 norest 2 2", "leaf", "leaf")
         self.refused(3, "costs 7", PASSER, "theorem 8", "split 0 norest 2 2 | 0 rest 2 2", "leaf", "leaf")
-        self.refused_splits(PASSER, "0 norest 2 2 | 1 rest 2 2", "0 norest 2 2 | 0 rest 2 3", "0 norest 2 2 | 0 rest 3 2",
+        self.refused_splits(PASSER, "0 norest 2 2 | 1 rest 2 2", "0 norest 2 2 | 0 rest 2 3",
+                            "0 norest 2 2 | 0 rest 3 2",
                             "0 norest 2 2 | 0 norest 2 2", "0 rest 2 2 | 0 rest 2 2")
 
     def test_rest_bars_other_agents(self):
         lemma = ["lemma inf 1", "demand 1 bar 2 2 inf", "leaf"]
         self.verified(PASSER, *lemma, "theorem 7", "split 0 norest 2 2 | 0 rest 2 2", "leaf", "leaf 0")
-        self.refused(6, "constraint 0 of lemma 0 is not in force", PASSER, *lemma, "theorem 7", "split 0 norest 2 2 | 0 rest 2 2", "leaf 0")
+        self.refused(6, "constraint 0 of lemma 0 is not in force", PASSER, *lemma, "theorem 7",
+                     "split 0 norest 2 2 | 0 rest 2 2", "leaf 0")
         # A rest among the constraints of a lemma implies no bars for other agents, and neither does the norest side of
         # a split.
         self.refused(3, "costs 5", PASSER, "lemma 7 0 1", "demand 0 rest 2 2", "leaf")
@@ -112,11 +121,14 @@ class Rules(unittest.TestCase):
         self.verified(HALL, "theorem 14", f"split {good}", "leaf", "leaf")
         self.refused(3, "costs 14", HALL, "theorem 15", f"split {good}", "leaf", "leaf")
         self.refused_splits(HALL, "0 pass 9 10 4 8 | 1 pass 8 7 4 7", "0 pass 9 10 4 7 | 1 pass 8 7 3 7",
-                            "0 pass 9 10 4 7 | 1 pass 8 7 4 8", "0 pass 9 10 3 7 | 1 pass 8 7 4 7", "0 pass 9 10 4 7 | 1 pass 9 10 4 7",
-                            "0 pass 9 10 4 7 | 0 pass 8 7 4 7", "0 pass 9 10 4 inf | 1 pass 8 7 4 inf", "0 pass 9 10 4 inf | 1 pass 8 7 4 7",
+                            "0 pass 9 10 4 7 | 1 pass 8 7 4 8", "0 pass 9 10 3 7 | 1 pass 8 7 4 7",
+                            "0 pass 9 10 4 7 | 1 pass 9 10 4 7",
+                            "0 pass 9 10 4 7 | 0 pass 8 7 4 7", "0 pass 9 10 4 inf | 1 pass 8 7 4 inf",
+                            "0 pass 9 10 4 inf | 1 pass 8 7 4 7",
                             "0 pass 9 10 4 7 | 1 pass 1 7 4 7")
         for wrong in ("8 10", "9 8", "7 8", "9 3", "9 9"):
-            self.refused(2, "the last place of a chain", HALL, "theorem 1", f"split 0 pass {wrong} 4 7 | 1 pass 8 7 4 7", "leaf", "leaf")
+            self.refused(2, "the last place of a chain", HALL, "theorem 1",
+                         f"split 0 pass {wrong} 4 7 | 1 pass 8 7 4 7", "leaf", "leaf")
 
     def test_agent_that_turns_back_does_not_traverse(self):
         # An agent that may not traverse the chain in either direction can still enter and leave it, here for task 0 on
@@ -134,9 +146,11 @@ class Rules(unittest.TestCase):
         self.verified(ERRANDS, "lemma 12 0", "demand 0 stop 0 3", "demand 0 stop 1 1", "leaf", "theorem 1", "leaf")
         self.refused(4, "costs 12", ERRANDS, "lemma 13 0", "demand 0 stop 0 3", "demand 0 stop 1 1", "leaf")
         self.verified(ERRANDS, "lemma inf 0", "demand 0 stop 0 3", "demand 0 stop 1 3", "leaf", "theorem 1", "leaf")
-        self.refused_splits(ERRANDS, "0 stop 0 0 | 0 nostop 1 0", "0 stop 0 0 | 0 nostop 0 1", "0 stop 0 0 | 0 stop 0 0",
+        self.refused_splits(ERRANDS, "0 stop 0 0 | 0 nostop 1 0", "0 stop 0 0 | 0 nostop 0 1",
+                            "0 stop 0 0 | 0 stop 0 0",
                             "0 nostop 0 0 | 0 nostop 0 0")
-        for wrong in ("0 stop 3 0 | 0 nostop 3 0", "0 stop 0 2 | 0 nostop 0 2", "0 stop 0 4 | 0 nostop 0 4", "1 stop 0 0 | 1 nostop 0 0"):
+        for wrong in ("0 stop 3 0 | 0 nostop 3 0", "0 stop 0 2 | 0 nostop 0 2", "0 stop 0 4 | 0 nostop 0 4",
+                      "1 stop 0 0 | 1 nostop 0 0"):
             self.refused(2, "no such stop", ERRANDS, "theorem 1", f"split {wrong}", "leaf", "leaf")
 
     def test_leaf_needs_earlier_lemmas_of_its_agents(self):
@@ -157,7 +171,8 @@ class Rules(unittest.TestCase):
         lemma = ["lemma 5 0 1", "demand 0 bar 4 1 1", "leaf"]
         self.verified(CROSS, *lemma, "theorem 5", "split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf 0", "leaf")
         self.refused(6, "not in force", CROSS, *lemma, "theorem 5", "split 1 bar 4 1 1 | 0 bar 4 1 1", "leaf 0")
-        self.refused(7, "not in force", CROSS, *lemma, "theorem 5", "split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf 0", "leaf 0")
+        self.refused(7, "not in force", CROSS, *lemma, "theorem 5", "split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf 0",
+                     "leaf 0")
         for other in ("0 bar 4 0 1", "0 bar 4 1 2", "0 bar 4 1 inf", "1 bar 4 1 1", "0 bar 1 1 1"):
             self.refused(6, "not in force", CROSS, "lemma 4 0 1", f"demand {other}", "leaf", "theorem 4",
                          "split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf 0")
@@ -179,20 +194,27 @@ class Rules(unittest.TestCase):
         self.verified(CROSS, *lemma, "theorem 5", "later 1 2 0 2 0", "leaf", "leaf")
         self.refused(7, "costs 5", CROSS, *lemma, "theorem 6", "later 0 2 1 2 0", "leaf", "leaf")
         for wrong in ("0 3 1 2", "0 2 1 3", "0 2 0 2"):
-            self.refused(6, "not about these two agents, or its bound", CROSS, *lemma, "theorem 5", f"later {wrong} 0", "leaf", "leaf")
+            self.refused(6, "not about these two agents, or its bound", CROSS, *lemma, "theorem 5", f"later {wrong} 0",
+                         "leaf", "leaf")
         self.refused(6, "no lemma", CROSS, *lemma, "theorem 5", "later 0 2 1 2 1", "leaf", "leaf")
-        self.refused(4, "not about these two agents", STAR, "lemma 9 0 1", "joint", "theorem 13", "later 0 4 2 4 0", "leaf", "leaf")
-        self.refused(5, "not in force", CROSS, "lemma 5 0 1", "demand 0 bar 4 1 1", "leaf", "theorem 5", "later 0 2 1 2 0")
-        self.refused(4, "lemma 0 is also about agent 2", STAR, "lemma 12 0 1 2", "leaf", "lemma 8 0 1", "later 0 3 1 3 0")
+        self.refused(4, "not about these two agents", STAR, "lemma 9 0 1", "joint", "theorem 13", "later 0 4 2 4 0",
+                     "leaf", "leaf")
+        self.refused(5, "not in force", CROSS, "lemma 5 0 1", "demand 0 bar 4 1 1", "leaf", "theorem 5",
+                     "later 0 2 1 2 0")
+        self.refused(4, "lemma 0 is also about agent 2", STAR, "lemma 12 0 1 2", "leaf", "lemma 8 0 1",
+                     "later 0 3 1 3 0")
 
     def test_later_needs_plain_goals(self):
-        ends = {"without a goal": ([Agent((3,)), Agent((1,), 7)], [(5, 0, [0])]), "who works there": ([Agent((3,), 5), Agent((1,), 7)], [(5, 1, [0])]),
+        ends = {"without a goal": ([Agent((3,)), Agent((1,), 7)], [(5, 0, [0])]),
+                "who works there": ([Agent((3,), 5), Agent((1,), 7)], [(5, 1, [0])]),
                 "with a heading": ([Agent((3, "E"), 5, 1, "E"), Agent((1,), 7)], [])}
         for name, (agents, tasks) in ends.items():
             with self.subTest(name):
                 instance = Instance(CROSS.world, agents, tasks)
-                self.refused(4, "agent 0 has no plain goal", instance, "lemma 1 0 1", "leaf", "theorem 1", "later 0 0 1 0 0", "leaf", "leaf")
-                self.refused(4, "agent 0 has no plain goal", instance, "lemma 1 0 1", "leaf", "theorem 1", "later 1 0 0 0 0", "leaf", "leaf")
+                self.refused(4, "agent 0 has no plain goal", instance, "lemma 1 0 1", "leaf", "theorem 1",
+                             "later 0 0 1 0 0", "leaf", "leaf")
+                self.refused(4, "agent 0 has no plain goal", instance, "lemma 1 0 1", "leaf", "theorem 1",
+                             "later 1 0 0 0 0", "leaf", "leaf")
         turner = Instance(CROSS.world, [Agent((3, "E"), 5, 1), Agent((1,), 7)])
         self.verified(turner, "lemma 5 0 1", "joint", "theorem 5", "later 0 2 1 2 0", "leaf", "leaf")
 
@@ -232,8 +254,10 @@ class Rules(unittest.TestCase):
 
     def test_certificate_of_another_instance_is_refused(self):
         text = certificate(CROSS, "theorem 4", "leaf")
-        others = [STAR, Instance(CROSS.world, CROSS.agents, [(0, 0, [0])]), Instance(CROSS.world, [Agent((3,), 5), Agent((1,), 8)]),
-                  Instance(grid("..@", "...", "..."), CROSS.agents), Instance(CROSS.world, [Agent((3, "E"), 5, 1), Agent((1,), 7)])]
+        others = [STAR, Instance(CROSS.world, CROSS.agents, [(0, 0, [0])]),
+                  Instance(CROSS.world, [Agent((3,), 5), Agent((1,), 8)]),
+                  Instance(grid("..@", "...", "..."), CROSS.agents),
+                  Instance(CROSS.world, [Agent((3, "E"), 5, 1), Agent((1,), 7)])]
         for other in others:
             found = checkers.verify(other, text)
             self.assertEqual((found.code, found.text), (1, "refused: line 2: it is of another instance\n"))

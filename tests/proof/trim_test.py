@@ -31,7 +31,8 @@ def trim(certificate, *options):
     with tempfile.TemporaryDirectory() as name:
         file = Path(name) / "c.proof"
         file.write_bytes(certificate if isinstance(certificate, bytes) else certificate.encode())
-        done = subprocess.run([GROVE, "proof", "trim", file, *options], capture_output=True, text=True, timeout=60, check=False)
+        done = subprocess.run([GROVE, "proof", "trim", file, *options], capture_output=True, text=True, timeout=60,
+                              check=False)
         output = (done.stdout + done.stderr).replace(f"{name}/", "")
         return done.returncode, output, file.read_bytes(), sorted(path.name for path in Path(name).iterdir())
 
@@ -47,14 +48,16 @@ class Padder(Prover):
     lemma."""
 
     def __init__(self, instance, rng, following):
-        super().__init__(instance, rng, following, [rule for rule in ("rest", "pass", "stop", "lemma", "later", "joint") if rng.random() < 0.6], 60)
+        super().__init__(instance, rng, following, [rule for rule in ("rest", "pass", "stop", "lemma", "later", "joint")
+                                                    if rng.random() < 0.6], 60)
         self.pool, self.pads, self.all_agents = [], 0, list(range(len(instance.agents)))
 
     def random_sides(self):
         """Returns the two sides of a random split, often on a constraint of a lemma."""
         rng, places = self.rng, range(self.instance.world.count)
         a, b = rng.sample(self.all_agents, 2)
-        constraint = rng.choice(self.pool) if self.pool and rng.random() < 0.7 else (a, rng.choice(["bar", "rest", "norest"]), rng.choice(places), rng.randint(0, 3))
+        constraint = rng.choice(self.pool) if self.pool and rng.random() < 0.7 else (
+            a, rng.choice(["bar", "rest", "norest"]), rng.choice(places), rng.randint(0, 3))
         a, kind, place, time = constraint[:4]
         if kind in ("rest", "norest"):
             return rng.sample([(a, "norest", place, time), (a, "rest", place, time)], 2)
@@ -73,14 +76,17 @@ class Padder(Prover):
                 extra = [(b, "bar", side[2], side[3], INF) for b in self.all_agents if b != side[0]]
                 constraints.append(self.rng.choice(extra) if side[1] == "rest" and self.rng.random() < 0.5 else side)
             self.pads = self.rng.choice([0, 2])
-            if self.lemma(self.all_agents, constraints, self.rng.choice([bound, bound, bound, max(0, bound - 1)])) is not None:
+            if self.lemma(self.all_agents, constraints,
+                          self.rng.choice([bound, bound, bound, max(0, bound - 1)])) is not None:
                 self.pool += constraints
         self.pads = 5
         return super().certificate(bound)
 
     def step(self, agents, bound, constraints):
-        strong = [n for n, (own, least, needed) in enumerate(self.lemmas) if set(own) <= set(agents) and least >= bound and set(needed) <= set(constraints)]
-        names = [n for n, (own, _, needed) in enumerate(self.lemmas) if set(own) <= set(agents) and set(needed) <= set(constraints)]
+        strong = [n for n, (own, least, needed) in enumerate(self.lemmas) if set(own) <= set(agents) and least >= bound
+                  and set(needed) <= set(constraints)]
+        names = [n for n, (own, _, needed) in enumerate(self.lemmas) if set(own) <= set(agents)
+                 and set(needed) <= set(constraints)]
         if strong and self.rng.random() < 0.6:
             return [" ".join(["leaf", *map(str, names), str(self.rng.choice(names))])], []
         if agents == self.all_agents and len(agents) > 1 and self.pads > 0 and self.rng.random() < 0.6:
@@ -103,13 +109,16 @@ class Trimmed(unittest.TestCase):
                 seen["too long"] += 1
                 continue
             before = checkers.verify(instance, certificate)
-            self.assertEqual(before.text, f"verified: no plan costs less than {least}{checkers.following_note(following)}\n", f"{kind}\n{certificate}")
+            self.assertEqual(before.text,
+                             f"verified: no plan costs less than {least}{checkers.following_note(following)}\n",
+                             f"{kind}\n{certificate}")
             short = trimmed(certificate)
             after = checkers.verify(instance, short)
             self.assertEqual(after.text, before.text, f"{kind}\n{certificate}\n--- trimmed:\n{short}")
             self.assertEqual(trimmed(short), short, certificate)
             for word in ("lemma", "demand", "split", "later", "leaf"):
-                seen[word] += sum(line.startswith(word) for line in certificate.split("\n")) - sum(line.startswith(word) for line in short.split("\n"))
+                seen[word] += sum(line.startswith(word) for line in certificate.split("\n"))
+                seen[word] -= sum(line.startswith(word) for line in short.split("\n"))
             # Trimming must not make a false claim verifiable.
             for mutant in mutants(rng, certificate, 2):
                 code, output, file, _ = trim(mutant)
@@ -143,14 +152,18 @@ class Trimmed(unittest.TestCase):
                     "lemma 9 0 1\njoint\ntheorem 8\nlater 0 3 1 5 0\nleaf\njoint\n")
 
     def test_duplicate_lemmas_are_removed(self):
-        self.expect("lemma 5 0 1\ndemand 0 bar 1 2 2\njoint\nlemma 5 0 1\ndemand 0 bar 1 2 2\ndemand 0 bar 1 2 2\njoint\ntheorem 8\n"
+        self.expect("lemma 5 0 1\ndemand 0 bar 1 2 2\njoint\nlemma 5 0 1\ndemand 0 bar 1 2 2\ndemand 0 bar 1 2 2\n"
+                    "joint\ntheorem 8\n"
                     "split 0 bar 1 2 2 | 1 bar 1 2 2\nleaf 1\nleaf\n",
-                    "lemma 5 0 1\ndemand 0 bar 1 2 2\njoint\ntheorem 8\nsplit 0 bar 1 2 2 | 1 bar 1 2 2\nleaf 0\nleaf\n")
+                    "lemma 5 0 1\ndemand 0 bar 1 2 2\njoint\ntheorem 8\n"
+                    "split 0 bar 1 2 2 | 1 bar 1 2 2\nleaf 0\nleaf\n")
         # The second lemma has the higher bound.
-        self.expect("lemma 5 0 1\njoint\nlemma 6 0 1\njoint\ntheorem 8\nleaf 1\n", "lemma 6 0 1\njoint\ntheorem 8\nleaf 0\n")
+        self.expect("lemma 5 0 1\njoint\nlemma 6 0 1\njoint\ntheorem 8\nleaf 1\n",
+                    "lemma 6 0 1\njoint\ntheorem 8\nleaf 0\n")
 
     def test_implied_lemma_names_are_removed(self):
-        self.expect("lemma 5 0 1\njoint\nlemma 4 0 1 2\njoint\nlemma 7 0 2\njoint\nlemma 0 1\nleaf\ntheorem 20\nleaf 0 1 2 2 3\n",
+        self.expect("lemma 5 0 1\njoint\nlemma 4 0 1 2\njoint\nlemma 7 0 2\njoint\nlemma 0 1\nleaf\n"
+                    "theorem 20\nleaf 0 1 2 2 3\n",
                     "lemma 5 0 1\njoint\nlemma 7 0 2\njoint\ntheorem 20\nleaf 0 1\n")
         # Two lemmas without a common agent suffice, whatever the individual costs of the agents are.
         self.expect("lemma 5 0 1\njoint\nlemma 6 0 2\njoint\nlemma 7 2 3\njoint\ntheorem 12\nleaf 0 1 2\n",
@@ -162,10 +175,12 @@ class Trimmed(unittest.TestCase):
         self.expect(f"{inf}theorem 8\n{split}{other}leaf 0\nleaf\njoint\n", f"{inf}theorem 8\n{split}leaf 0\njoint\n")
         self.expect(f"{inf}theorem 8\n{split}{other}joint\nleaf 0\njoint\n", f"{inf}theorem 8\n{split}leaf 0\njoint\n")
         # The costs of agents can depend on the constraints, so both splits stay.
-        for kept in (f"{inf}theorem 8\n{split}leaf 0\n{other}leaf\nleaf\n", f"{inf}theorem 8\n{other}{split}leaf 0\nleaf\njoint\n"):
+        for kept in (f"{inf}theorem 8\n{split}leaf 0\n{other}leaf\nleaf\n",
+                     f"{inf}theorem 8\n{other}{split}leaf 0\nleaf\njoint\n"):
             self.expect(kept, kept)
         # The lemma alone proves the theorem.
-        self.expect(f"lemma 8 0 1 2 3\njoint\ntheorem 8\n{split}{other}leaf 0\nleaf\nleaf\n", "lemma 8 0 1 2 3\njoint\ntheorem 8\nleaf 0\n")
+        self.expect(f"lemma 8 0 1 2 3\njoint\ntheorem 8\n{split}{other}leaf 0\nleaf\nleaf\n",
+                    "lemma 8 0 1 2 3\njoint\ntheorem 8\nleaf 0\n")
 
     def test_one_of_two_splits_with_a_needed_constraint_stays(self):
         """Checks a constraint that both the outer and the inner split impose. One of the splits stays, either the
@@ -188,29 +203,37 @@ class Trimmed(unittest.TestCase):
         rest = "split 0 norest 4 2 | 0 rest 4 2\n"
         kept = f"{inf}theorem 8\n{rest}joint\nleaf 0\n"
         self.expect(kept, kept)
-        self.expect(f"{inf}theorem 8\n{rest}joint\nsplit 2 norest 4 2 | 2 rest 4 2\njoint\nleaf 0\n", f"{inf}theorem 8\n{rest}joint\nleaf 0\n")
+        self.expect(f"{inf}theorem 8\n{rest}joint\nsplit 2 norest 4 2 | 2 rest 4 2\njoint\nleaf 0\n",
+                    f"{inf}theorem 8\n{rest}joint\nleaf 0\n")
         # A rest among the constraints of a lemma implies no bars, so the split within its proof stays.
-        kept = f"{inf}lemma 8 0 1\ndemand 0 rest 4 2\n{rest}joint\nleaf 0\ntheorem 9\nsplit 0 norest 4 2 | 0 rest 4 2\njoint\nleaf 1\n"
+        kept = f"{inf}lemma 8 0 1\ndemand 0 rest 4 2\n{rest}joint\nleaf 0\n" \
+            "theorem 9\nsplit 0 norest 4 2 | 0 rest 4 2\njoint\nleaf 1\n"
         self.expect(kept, kept)
 
     def test_later_imposes_norest_at_an_unknown_goal(self):
         inf = "lemma inf 0 1\ndemand 0 norest 7 3\njoint\n"
         kept = f"{inf}lemma 9 0 1\njoint\ntheorem 8\nlater 0 3 1 5 1\nleaf 0\njoint\n"
         self.expect(kept, kept)
-        self.expect(f"{inf}lemma 9 0 1\njoint\ntheorem 8\nlater 1 3 0 5 1\nsplit 0 norest 7 3 | 0 rest 7 3\nleaf 0\njoint\nleaf\n",
-                    f"{inf}lemma 9 0 1\njoint\ntheorem 8\nlater 1 3 0 5 1\nsplit 0 norest 7 3 | 0 rest 7 3\nleaf 0\njoint\nleaf\n")
+        self.expect(f"{inf}lemma 9 0 1\njoint\ntheorem 8\nlater 1 3 0 5 1\nsplit 0 norest 7 3 | 0 rest 7 3\nleaf 0\n"
+                    f"joint\nleaf\n",
+                    f"{inf}lemma 9 0 1\njoint\ntheorem 8\nlater 1 3 0 5 1\nsplit 0 norest 7 3 | 0 rest 7 3\nleaf 0\n"
+                    f"joint\nleaf\n")
 
     def test_unneeded_constraints_of_lemmas_are_removed(self):
-        self.expect("lemma 5 0 1\njoint\nlemma 5 0 1 2\ndemand 2 bar 1 1 1\nleaf 0\ntheorem 9\nsplit 2 bar 1 1 1 | 0 bar 1 1 1\nleaf 1\nleaf\n",
-                    "lemma 5 0 1\njoint\nlemma 5 0 1 2\nleaf 0\ntheorem 9\nsplit 2 bar 1 1 1 | 0 bar 1 1 1\nleaf 1\nleaf\n")
+        self.expect("lemma 5 0 1\njoint\nlemma 5 0 1 2\ndemand 2 bar 1 1 1\nleaf 0\n"
+                    "theorem 9\nsplit 2 bar 1 1 1 | 0 bar 1 1 1\nleaf 1\nleaf\n",
+                    "lemma 5 0 1\njoint\nlemma 5 0 1 2\nleaf 0\n"
+                    "theorem 9\nsplit 2 bar 1 1 1 | 0 bar 1 1 1\nleaf 1\nleaf\n")
 
     def test_rows_of_price_zero_are_removed(self):
-        self.expect("theorem 8\nprices\nplace 1 2 0\nedge 1 2 3 7\nfinish 0 1 1 2 0\nend\n", "theorem 8\nprices\nedge 1 2 3 7\nend\n")
+        self.expect("theorem 8\nprices\nplace 1 2 0\nedge 1 2 3 7\nfinish 0 1 1 2 0\nend\n",
+                    "theorem 8\nprices\nedge 1 2 3 7\nend\n")
 
     def test_deep_certificates_are_trimmed(self):
         deep = 100000
         split = "".join(f"split 0 bar 1 {t} {t} | 1 bar 1 {t} {t}\nleaf\n" for t in range(deep))
-        self.expect(f"lemma 9 0 1\njoint\ntheorem 10\n{split}leaf 0\n", f"lemma 9 0 1\njoint\ntheorem 10\n{split}leaf 0\n")
+        self.expect(f"lemma 9 0 1\njoint\ntheorem 10\n{split}leaf 0\n",
+                    f"lemma 9 0 1\njoint\ntheorem 10\n{split}leaf 0\n")
         self.expect(f"lemma 9 0 1\njoint\ntheorem 9\n{split}leaf 0\n", "lemma 9 0 1\njoint\ntheorem 9\nleaf 0\n")
 
 
@@ -219,13 +242,15 @@ class Files(unittest.TestCase):
 
     def test_output_reports_sizes(self):
         code, output, after, _ = trim(self.TEXT)
-        self.assertEqual((code, output), (0, f"wrote c.proof: 8 lines, {len(after)} bytes; before: 10 lines, {len(self.TEXT)} bytes\n"))
+        self.assertEqual((code, output),
+                         (0, f"wrote c.proof: 8 lines, {len(after)} bytes; before: 10 lines, {len(self.TEXT)} bytes\n"))
 
     @unittest.skipUnless(shutil.which("zstd"), "no zstd")
     def test_compressed_certificates_stay_compressed(self):
         packed = subprocess.run(["zstd", "-c"], input=self.TEXT.encode(), capture_output=True, check=True).stdout
         after = trimmed(packed)
-        self.assertEqual(subprocess.run(["zstd", "-dc"], input=after, capture_output=True, check=True).stdout.decode(), trimmed(self.TEXT))
+        self.assertEqual(subprocess.run(["zstd", "-dc"], input=after, capture_output=True, check=True).stdout.decode(),
+                         trimmed(self.TEXT))
         for size in range(5, len(packed), 7):
             code, output, after, files = trim(packed[:size])
             if code != 0:
@@ -259,8 +284,10 @@ class Files(unittest.TestCase):
     def test_invalid_certificates_stay_unchanged(self):
         for text_there, expected in [("", "line 1: the file ends; expected a line, ended by LF"),
                                      ("grove-proof 2\n", "line 1: found '2'; expected '1'"),
-                                     (self.TEXT.replace("0123", "012"), "line 2: found '012456789abcdef'; expected a checksum, 16 digits of 0 to f"),
-                                     (self.TEXT.replace("leaf\nend", "leaf 1\nend"), "line 9: found '1'; expected the number of an earlier lemma, from 0 to 0"),
+                                     (self.TEXT.replace("0123", "012"),
+                                      "line 2: found '012456789abcdef'; expected a checksum, 16 digits of 0 to f"),
+                                     (self.TEXT.replace("leaf\nend", "leaf 1\nend"),
+                                      "line 9: found '1'; expected the number of an earlier lemma, from 0 to 0"),
                                      (self.TEXT[:-1], "line 10: the file ends within it; expected a line, ended by LF"),
                                      (self.TEXT + "\n", "line 10: found more after it; expected nothing after 'end'"),
                                      ("x" * 5000000, "line 1: it is too long; expected at most 4194304 bytes")]:
@@ -269,8 +296,10 @@ class Files(unittest.TestCase):
             self.assertEqual((after.decode(), files), (text_there, ["c.proof"]))
 
     def test_missing_and_irregular_files_are_refused(self):
-        for path, reason in (("none", "cannot be read: No such file or directory"), ("/dev/null", "expected a file, which can be read more than once")):
-            done = subprocess.run([GROVE, "proof", "trim", path], capture_output=True, text=True, timeout=60, check=False)
+        for path, reason in (("none", "cannot be read: No such file or directory"),
+                             ("/dev/null", "expected a file, which can be read more than once")):
+            done = subprocess.run([GROVE, "proof", "trim", path], capture_output=True, text=True, timeout=60,
+                                  check=False)
             self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", f"grove: error: {path}: {reason}\n"))
 
 

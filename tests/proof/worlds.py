@@ -36,7 +36,8 @@ class World:
                 self.count += steps - 1
                 for pair in zip(row, row[1:]):
                     self.links |= {pair} if one_way else {pair, pair[::-1]}
-        self.near = {place: {q for link in self.links for q in link if place in link} - {place} for place in range(self.count)}
+        self.near = {place: {q for link in self.links for q in link if place in link} - {place}
+                     for place in range(self.count)}
         self.after = {place: sorted(q for p, q in self.links if p == place) for place in range(self.count)}
 
     def passable(self, place):
@@ -87,7 +88,8 @@ class Instance:
         first = {}
         for j in own:
             first.setdefault(self.tasks[j][0], j)
-        return [j for j in own if self.tasks[j][1] > 0 or (self.tasks[j][0] not in timed and first[self.tasks[j][0]] == j)]
+        return [j for j in own if self.tasks[j][1] > 0
+                or (self.tasks[j][0] not in timed and first[self.tasks[j][0]] == j)]
 
     def plain_goal(self, agent):
         goal = self.agents[agent].goal
@@ -122,9 +124,11 @@ class Instance:
     def checksum(self):
         world, lines = self.world, []
         if world.rows is not None:
-            lines += [f"grid {world.width} {world.height}", *("".join("." if c == "." else "@" for c in row) for row in world.rows)]
+            lines += [f"grid {world.width} {world.height}",
+                      *("".join("." if c == "." else "@" for c in row) for row in world.rows)]
         else:
-            lines += [f"roadmap {world.vertices} {len(world.roads)}", *(f"{a} {b} {d} {int(one)}" for a, b, d, one in world.roads)]
+            lines += [f"roadmap {world.vertices} {len(world.roads)}",
+                      *(f"{a} {b} {d} {int(one)}" for a, b, d, one in world.roads)]
         for agent in self.agents:
             lines.append(f"agent {agent.start[0]} {-1 if agent.goal is None else agent.goal} {agent.turn}")
             if agent.turn:
@@ -142,7 +146,8 @@ class Instance:
         """Writes the files of the instance and returns the path of the instance file."""
         world = self.world
         if world.rows is not None:
-            (folder / f"{name}.map").write_text(f"type octile\nheight {world.height}\nwidth {world.width}\nmap\n" + "\n".join(world.rows) + "\n")
+            (folder / f"{name}.map").write_text(f"type octile\nheight {world.height}\nwidth {world.width}\nmap\n"
+                                                + "\n".join(world.rows) + "\n")
             text, cell = {"map": f"{name}.map"}, lambda place: [place % world.width, place // world.width]
         else:
             roads = [{"from": f"v{a}", "to": f"v{b}", "steps": d, "one_way": one} for a, b, d, one in world.roads]
@@ -155,7 +160,8 @@ class Instance:
             if agent.goal is not None:
                 one["goal"] = cell(agent.goal)
             if agent.turn:
-                one |= {"motion": "turning", "turn_steps": agent.turn, "heading": agent.start[1], "start": [*one["start"], *agent.start[1:]]}
+                one |= {"motion": "turning", "turn_steps": agent.turn, "heading": agent.start[1],
+                        "start": [*one["start"], *agent.start[1:]]}
                 one |= {"goal_heading": agent.goal_heading} if agent.goal_heading else {}
             if agent.working:
                 one["working"] = {"task": f"t{agent.working[0]}", "done": agent.working[1]}
@@ -223,12 +229,14 @@ def least_cost(instance, agent, constraints, latest=400):
     as in a certificate, but without the agent."""
     ordered = any(d[0] in ("stop", "nostop") for d in constraints)
     world = instance.world
-    constant_from = 1 + max([t for d in constraints for t in d[1:] if d[0] not in ("stop", "nostop") and t != INF], default=0)
+    constant_from = 1 + max([t for d in constraints for t in d[1:] if d[0] not in ("stop", "nostop") and t != INF],
+                            default=0)
     passes = [(world.chain(d[1]), d) for d in constraints if d[0] == "pass"]
 
     def allowed(done):
         number = len(done) - 1
-        return all((done[number] == j) == (kind == "stop") for kind, k, j in (d for d in constraints if d[0] in ("stop", "nostop"))
+        return all((done[number] == j) == (kind == "stop")
+                   for kind, k, j in (d for d in constraints if d[0] in ("stop", "nostop"))
                    if k == number)
 
     def free(place, time):
@@ -250,7 +258,8 @@ def least_cost(instance, agent, constraints, latest=400):
         now = set()
         for chain in {chain for chain, _ in passes}:
             if place in chain[1:-1]:
-                now |= {(chain, (before[0], place))} if before[0] not in chain[1:-1] else {e for e in entries if e[0] == chain}
+                is_inside = before[0] in chain[1:-1]
+                now |= {e for e in entries if e[0] == chain} if is_inside else {(chain, (before[0], place))}
         return state, min(time, constant_from), frozenset(now)
 
     def rests(node, time):
@@ -312,7 +321,8 @@ def optimum(instance, following=True, most=4000):
     Returns None after `most` states."""
     agents = range(len(instance.agents))
     starts = list(itertools.product(*(initial(instance, agent, False) for agent in agents)))
-    waiting, known, tie = [(0, number, start) for number, start in enumerate(starts)], {start: 0 for start in starts}, itertools.count(len(starts))
+    waiting = [(0, number, start) for number, start in enumerate(starts)]
+    known, tie = {start: 0 for start in starts}, itertools.count(len(starts))
     heapq.heapify(waiting)
     while waiting:
         cost, _, states = heapq.heappop(waiting)
@@ -348,11 +358,14 @@ def random_instance(rng, kind):
     while True:
         if kind == "roads":
             vertices = rng.randint(3, 4)
-            roads = [(a, b, rng.randint(1, 3), rng.random() < 0.3) for a, b in itertools.combinations(range(vertices), 2) if rng.random() < 0.7]
-            world = World(vertices=vertices, roads=[(b, a, d, one) if rng.random() < 0.5 else (a, b, d, one) for a, b, d, one in roads])
+            roads = [(a, b, rng.randint(1, 3), rng.random() < 0.3)
+                     for a, b in itertools.combinations(range(vertices), 2) if rng.random() < 0.7]
+            world = World(vertices=vertices,
+                          roads=[(b, a, d, one) if rng.random() < 0.5 else (a, b, d, one) for a, b, d, one in roads])
         else:
             size = rng.choice([(3, 3), (4, 3), (5, 2), (4, 2), (6, 1)])
-            world = World(["".join("@" if rng.random() < 0.25 else "." for _ in range(size[0])) for _ in range(size[1])])
+            world = World(["".join("@" if rng.random() < 0.25 else "." for _ in range(size[0]))
+                           for _ in range(size[1])])
         cells = [place for place in range(world.count) if world.near[place]]
         count = rng.choice([2, 2, 3])
         if len(cells) < count + 1:
@@ -368,7 +381,8 @@ def random_instance(rng, kind):
             start = (starts[number],) + ((rng.choice(HEADINGS),) if turn else ())
             if turn == 2 and rng.random() < 0.3:
                 start += (HEADINGS[(HEADINGS.index(start[1]) + rng.choice([1, 3])) % 4], 1)
-            agents.append(Agent(start, goal, turn, rng.choice(HEADINGS) if turn and goal is not None and rng.random() < 0.5 else None))
+            agents.append(Agent(start, goal, turn,
+                                rng.choice(HEADINGS) if turn and goal is not None and rng.random() < 0.5 else None))
         tasks, task_cells = [], [c for c in cells if kind != "roads" or c < world.vertices]
         for _ in range(0 if kind == "plain" else rng.randint(1, 4)):
             duration = rng.randint(1, 3) if kind == "work" and rng.random() < 0.6 else 0

@@ -53,7 +53,8 @@ class Pages(unittest.TestCase):
         self.assertIn("<name>infeasible</name>", text)
         self.assertEqual(undocumented_values(text), [])
         value = "<enumvalue><name>{}</name><briefdescription>{}</briefdescription><detaileddescription/></enumvalue>"
-        self.assertEqual(undocumented_values(f"<x>{value.format('a', '<para>A.</para>')}{value.format('b', '')}</x>"), ["b"])
+        self.assertEqual(undocumented_values(f"<x>{value.format('a', '<para>A.</para>')}{value.format('b', '')}</x>"),
+                         ["b"])
 
     def test_undocumented_entities_are_refused(self):
         for what, text in UNDOCUMENTED.items():

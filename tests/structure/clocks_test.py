@@ -35,7 +35,8 @@ TESTS = {
     "mpi/kill_and_resume.py": "a campaign kills ranks at random times; the test waits for checkpoints",
     "cluster/scripts_test.py": "shell scripts that poll for a file",
     "cluster/harness_test.py": "shell scripts that poll for a file",
-    "cluster/slurm_preemption_test.py": "a Slurm node refuses a job in the second in which it ends, and does not report it",
+    "cluster/slurm_preemption_test.py": "a Slurm node refuses a job in the second in which it ends, "
+                                        "and does not report it",
 }
 # Other sources take the time from Limits::now(), which a test can set.
 LAYERS = {
@@ -47,7 +48,8 @@ LAYERS = {
     "src/io/file_lock.cpp": "reports since when a folder is locked",
 }
 
-READS_CPP = re.compile(r"[cC]lock::now\s*\(|\bstd::clock\s*\(|\bclock_gettime\s*\(\s*CLOCK_(?:REALTIME|MONOTONIC)|\bgettimeofday\b"
+READS_CPP = re.compile(r"[cC]lock::now\s*\(|\bstd::clock\s*\(|\bclock_gettime\s*\(\s*CLOCK_(?:REALTIME|MONOTONIC)"
+                       r"|\bgettimeofday\b"
                        r"|\btime\s*\(\s*(?:nullptr|NULL|0)\s*\)")
 SLEEPS_CPP = re.compile(r"\bsleep_(?:for|until)\b|\bwait_(?:for|until)\s*\(\s*\w+,|(?<!\w)u?sleep\s*\(|\bnanosleep\b")
 PYTHON = re.compile(r"\btime\.(?:sleep|time|monotonic|perf_counter|process_time)(?:_ns)?\(|\bthreading\.Timer\("
@@ -71,11 +73,13 @@ class Clocks(unittest.TestCase):
         found = {str(path.relative_to(ROOT / "tests")) for path in (ROOT / "tests").rglob("*")
                  if path.suffix in {".cpp", ".h", ".py", ".ts"} and path != Path(__file__).resolve()
                  and uses_time(path.name, path.read_text(encoding="utf-8"))}
-        self.assertEqual(sorted(found - set(TESTS)), [], "wait for an event, and take the time from tests/support/clocks.h")
+        self.assertEqual(sorted(found - set(TESTS)), [],
+                         "wait for an event, and take the time from tests/support/clocks.h")
         self.assertEqual(sorted(set(TESTS) - found), [], "no exception is needed any more")
 
     def test_only_listed_sources_read_a_clock(self):
-        found = {str(path.relative_to(ROOT)) for folder in ("include", "src", "mpi") for path in (ROOT / folder).rglob("*")
+        found = {str(path.relative_to(ROOT)) for folder in ("include", "src", "mpi")
+                 for path in (ROOT / folder).rglob("*")
                  if path.suffix in {".cpp", ".h", ".hpp"}
                  and READS_CPP.search(without_comments_and_strings(path.read_text(encoding="utf-8")))}
         self.assertEqual(sorted(found - set(LAYERS)), [], "take the time from Limits::now()")
@@ -85,7 +89,8 @@ class Clocks(unittest.TestCase):
         for name, text in (("a.cpp", "auto t = Limits::Clock::now();"), ("a.cpp", "x = steady_clock::now ();"),
                            ("a.h", "std::this_thread::sleep_for(1ms);"), ("a.cpp", "std::clock() < 3"),
                            ("a.cpp", 'run("sleep 0.2");'), ("a.cpp", "usleep(3);"), ("a.cpp", "time(nullptr)"),
-                           ("a.py", "    time.sleep(1)"), ("a.py", "time.monotonic() - t"), ("a.py", "from time import sleep"),
+                           ("a.py", "    time.sleep(1)"), ("a.py", "time.monotonic() - t"),
+                           ("a.py", "from time import sleep"),
                            ("a.py", "'sleep 2; exit'"), ("a.ts", "performance.now()")):
             self.assertTrue(uses_time(name, text), text)
         for name, text in (("a.cpp", "// Clock::now()"), ("a.cpp", 'run("exec sleep 600");'), ("a.cpp", "limits.now()"),

@@ -184,7 +184,8 @@ def run_document(path, root, programs, is_slow):
 
 
 def self_test():
-    document = ("```console\n$ grove solve a \\\n    --quiet\nsome 12 s  of output\n$ grove x <<END\n> text\n> END\n```\n"
+    document = ("```console\n$ grove solve a \\\n    --quiet\nsome 12 s  of output\n"
+                "$ grove x <<END\n> text\n> END\n```\n"
                 "<!-- slow: builds -->\n```sh\ncmake --build . && ls  # all\n```\n"
                 "```\ngrove not this\n```\n<!-- not run: why -->\n\n```sh\nrm x\n```\n```sh\nrm x\n```\n")
     found = blocks(document)
@@ -196,7 +197,8 @@ def self_test():
     assert harmful(Block("grove x && rm y\n", [], "", 1)) == "rm y"
     assert missing_line(["some 3.5 s of output", "...", "so..."], "some 12 s of output\nso it is") is None
     assert missing_line(["other 3.5 s"], "some 12 s") == "other 3.5 s"
-    assert hidden("a\n    grove solve x\n    ls\n```sh\n    grove y\n```\n```\n$ z\n```\n") == ["grove solve x", "```\n$ z"]
+    text = "a\n    grove solve x\n    ls\n```sh\n    grove y\n```\n```\n$ z\n```\n"
+    assert hidden(text) == ["grove solve x", "```\n$ z"]
     with tempfile.TemporaryDirectory() as name:
         state = start_shell(Path(name))
         assert run(Block("export A='b c'\nmkdir d\ncd d\n", [], "", 1), state) is None

@@ -90,7 +90,8 @@ class Tree:
     def included(self, path):
         """Yields the sources that `path` includes."""
         for name in re.findall(r'^\s*#\s*include\s*"([^"]+)"', self.texts[path], re.M):
-            candidates = [folder / name for folder in (path.parent, self.root, self.root / "include", self.root / "src")]
+            candidates = [folder / name
+                          for folder in (path.parent, self.root, self.root / "include", self.root / "src")]
             yield from (found for found in candidates if found in self.texts)
 
     def seen_by(self, path):

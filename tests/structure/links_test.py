@@ -85,11 +85,13 @@ class TheChecks(unittest.TestCase):
     """Tests the checks themselves."""
 
     def test_links_are_found(self):
-        text = "[a](b.md#c) ![d](e.svg) `[f](g)` ``[h](`i`)``\n```sh\n[j](k)\n```\n<img src=\"l.png\"> [m](<n> \"o\")\n[p]: q\n"
+        text = "[a](b.md#c) ![d](e.svg) `[f](g)` ``[h](`i`)``\n```sh\n[j](k)\n```\n" \
+            "<img src=\"l.png\"> [m](<n> \"o\")\n[p]: q\n"
         self.assertEqual(links(text), ["b.md#c", "e.svg", "l.png", "n", "q"])
 
     def test_anchors_are_found(self):
-        text = "# One `--two`, three!\n```\n# not this\n```\n## [Four](x.md) & *five*\n## One\n## One\n### One\n<a id=\"six\"></a>\n"
+        text = "# One `--two`, three!\n```\n# not this\n```\n" \
+            "## [Four](x.md) & *five*\n## One\n## One\n### One\n<a id=\"six\"></a>\n"
         self.assertEqual(anchors(text), {"one---two-three", "four--five", "one", "one-1", "one-2", "six"})
 
     def test_dead_links_are_found(self):

@@ -40,7 +40,8 @@ def complaints(compiler, folders, source, *options):
     """Compiles a source and returns the errors and warnings, except those in Grove headers."""
     includes = [word for folder in folders for word in ("-isystem", folder)]
     done = subprocess.run([compiler, "-std=c++20", "-Wall", "-Wextra", "-Werror", "-Wno-unused-variable",
-                           "-Wno-unused-but-set-variable", *includes, "-x", "c++", "-", *(options or ["-fsyntax-only"])],
+                           "-Wno-unused-but-set-variable", *includes, "-x", "c++", "-",
+                           *(options or ["-fsyntax-only"])],
                           input=source, capture_output=True, text=True, check=False)
     return done.stderr if done.returncode else ""
 
@@ -50,7 +51,8 @@ def failure_of_run(compiler, folders, source, library, instance):
         for path in (instance, *instance.parent.glob("*.map")):
             shutil.copy(path, Path(folder) / ("depot.cts.json" if path == instance else path.name))
         program = Path(folder) / "program"
-        failure = complaints(compiler, folders, source, "-o", program, "-x", "none", library, f"-Wl,-rpath,{library.parent}")
+        failure = complaints(compiler, folders, source, "-o", program, "-x", "none", library,
+                             f"-Wl,-rpath,{library.parent}")
         if failure:
             return failure
         done = subprocess.run([program], cwd=folder, capture_output=True, text=True, timeout=60, check=False)

@@ -11,7 +11,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 # Lowest layer first. Each layer may use only the layers before it.
-LAYERS = ["model", "execution", "io", "sequencing", "planning", "joint", "lagrangian", "conflicts", "search", "proof", "primal", "baselines",
+LAYERS = ["model", "execution", "io", "sequencing", "planning", "joint", "lagrangian", "conflicts", "search", "proof",
+          "primal", "baselines",
           "engine", "batch", "api", "mpi", "tools"]
 CODE_FOLDERS = ["include", "src", "mpi", "cluster", "examples", "python", "tools", "tests", "benchmarks"]
 CPP = {".h", ".hpp", ".cpp"}
@@ -156,7 +157,8 @@ class TheTree(unittest.TestCase):
         plans = pairs("src/io/plan_file.cpp", r'\{"(\w+)", "(\w+)"\}', "kRenamed{", "};")
         self.assertGreater(len(plans), 20)
         self.assertEqual(pairs("tools/view/run/renamed.ts", r'(\w+): "(\w+)"', "kCounters", "};"), plans)
-        self.assertEqual(pairs("tools/report/grove_report/rows.py", r'"(\w+)": "(\w+)"', "RENAMED_COUNTERS = {", "}"), plans)
+        self.assertEqual(pairs("tools/report/grove_report/rows.py", r'"(\w+)": "(\w+)"', "RENAMED_COUNTERS = {", "}"),
+                         plans)
 
     def test_every_tunable_is_used(self):
         names = re.findall(r"^GROVE_TUNABLE\(\w+, (\w+),",

@@ -84,7 +84,8 @@ class Summary(unittest.TestCase):
             self.assertIn("    Segmentation fault\n", run.stdout)
 
     def test_googletest_program_that_fails_after_its_cases_has_failed(self):
-        run = summarise(case("io_test", "fail", GTEST[:GTEST.index("[ RUN      ] Maps.Writes")] + "ERROR: LeakSanitizer"))
+        run = summarise(case("io_test", "fail",
+                             GTEST[:GTEST.index("[ RUN      ] Maps.Writes")] + "ERROR: LeakSanitizer"))
         self.assertEqual((run.returncode, run.stdout.split("\n")[-2]), (1, "1 passed, 1 failed, 0 skipped"))
         self.assertIn("FAILED release: io_test\n", run.stdout)
 

@@ -113,8 +113,10 @@ class Chromium:
             self.console.append(what["exceptionDetails"].get("exception", {}).get("description", "an exception"))
         elif method == "Log.entryAdded":
             self.console.append(what["entry"]["text"])
-        elif method == "Network.requestWillBeSent" and not what["request"]["url"].startswith(("file:", "data:", "blob:")):
-            self.requests.append(what["request"]["url"])
+        elif method == "Network.requestWillBeSent":
+            url = what["request"]["url"]
+            if not url.startswith(("file:", "data:", "blob:")):
+                self.requests.append(url)
 
     def call(self, method, **parameters):
         self.number += 1

@@ -245,7 +245,8 @@ class Refusals(Program):
 
     def test_unsupported_instances_are_not_errors(self):
         """Mixes instances with and without turning agents; the method does not support turning."""
-        for name, motion in (("a_turns", '"motion": "turning", "heading": "N", "turn_steps": 1, '), ("b_plain", ""), ("c_turns", '"motion": "turning", "heading": "N", "turn_steps": 1, ')):
+        for name, motion in (("a_turns", '"motion": "turning", "heading": "N", "turn_steps": 1, '), ("b_plain", ""),
+                             ("c_turns", '"motion": "turning", "heading": "N", "turn_steps": 1, ')):
             path = self.folder / f"instances/{name}.cts.json"
             path.parent.mkdir(exist_ok=True)
             path.write_text(f'{{"map": "{DATA}/rooms-32x32.map", "agents": [{{"id": "a", {motion}"start": [1, 1], '

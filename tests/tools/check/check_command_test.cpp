@@ -70,7 +70,7 @@ TEST_F(CheckCommand, PrintsEachViolationOnItsOwnLine) {
             "p.json: /agents/1/path/3: agent 'b' jumps from [1, 0] to [0, 1]; expected a wait or a "
             "move to one of 4 neighbors\n"
             "p.json: /agents/1/sequence: expected every task of agent 'b' exactly once\n"
-            "p.json: /cost: the agents' costs add up to 5, but the plan says 4\n"
+            "p.json: /cost: the agents' costs add up to 5, but the plan claims 4\n"
             "p.json: /status: found 'bounded'; expected 'feasible' with cost 5, lower bound 3 and "
             "omega 0.5\n");
 }
@@ -110,7 +110,7 @@ TEST_F(CheckCommand, ChecksBarePathLists) {
   EXPECT_EQ(check_text("soc=4\nsoc_lb=4\n").out,
             "valid: cost 4, lower bound 4, gap 0.00 %, 2 agents\n");
   EXPECT_EQ(said(check_text("soc=3\n")),
-            "text: /cost: the agents' costs add up to 4, but the plan says 3\n");
+            "text: /cost: the agents' costs add up to 4, but the plan claims 3\n");
 }
 
 TEST_F(CheckCommand, RefusesUnknownKeys) {

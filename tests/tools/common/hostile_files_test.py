@@ -89,7 +89,8 @@ class Messages(Hostile):
     def test_grove_verify_quotes_nothing(self):
         self.write("proof", "grove-proof 1\n")
         for key in ("map", "roadmap"):
-            done = subprocess.run([VERIFY, self.instance({key: "../secret"}), self.folder / "proof"], capture_output=True, text=True, check=False)
+            done = subprocess.run([VERIFY, self.instance({key: "../secret"}), self.folder / "proof"],
+                                  capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, 2, done.stdout)
             self.assertNotIn("hunter2", done.stdout + done.stderr)
 
@@ -140,7 +141,8 @@ class Confined(Hostile):
     def test_standard_input_is_confined_to_the_current_folder(self):
         for name, code in (("inside.map", 0), ("../ours.map", 2)):
             done = subprocess.run([GROVE, "solve", "-", "--confine", "--quiet"], cwd=self.folder, text=True,
-                                  input=json.dumps({**ROBOTS, "map": name}), capture_output=True, timeout=60, check=False)
+                                  input=json.dumps({**ROBOTS, "map": name}), capture_output=True, timeout=60,
+                                  check=False)
             self.assertEqual(done.returncode, code, done.stderr)
 
     def test_scenarios_and_images_are_confined(self):
@@ -152,11 +154,13 @@ class Confined(Hostile):
         self.write("ours.pgm", "P2 3 1 255 255 255 255\n", self.top)
         self.write("m.yaml", "image: ../ours.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n")
         self.assertEqual(self.run_it("convert", "m.yaml", "out.map", "--cell-size", 0.1).returncode, 0)
-        self.assertIn("m.yaml: image: '../ours.pgm' leads out", self.refused("convert", "m.yaml", "out.map", "--cell-size", 0.1, "--confine"))
+        self.assertIn("m.yaml: image: '../ours.pgm' leads out",
+                      self.refused("convert", "m.yaml", "out.map", "--cell-size", 0.1, "--confine"))
 
     def test_bench_is_confined(self):
         self.instance({"map": "../ours.map"})
-        words = ("bench", self.folder / "i.cts.json", "--run", "a: --omega 0", "--time-limit", 20, "--quiet", "--output-dir")
+        words = ("bench", self.folder / "i.cts.json", "--run", "a: --omega 0", "--time-limit", 20, "--quiet",
+                 "--output-dir")
         self.assertEqual(self.run_it(*words, "open").returncode, 0)
         self.assertIn("leads out", self.run_it(*words, "confined", "--confine").stderr)
 
@@ -167,7 +171,8 @@ class Confined(Hostile):
         for name, code in [*((name, 2) for name in self.outside), *((name, 0) for name in self.inside),
                            (str(self.folder / "inside.map"), 2)]:
             with self.subTest(name=name):
-                done = subprocess.run([VERIFY, self.instance({"map": name}), proof, "--confine"], capture_output=True, text=True, check=False)
+                done = subprocess.run([VERIFY, self.instance({"map": name}), proof, "--confine"], capture_output=True,
+                                      text=True, check=False)
                 self.assertEqual(done.returncode, code, done.stdout)
 
 
@@ -181,7 +186,8 @@ class Memory(Hostile):
     def test_long_roads_are_refused_for_memory(self):
         self.write("r.json", json.dumps({"vertices": [{"id": "A", "at": [0, 0]}, {"id": "B", "at": [1, 0]}],
                                          "edges": [{"from": "A", "to": "B", "steps": 67_000_000}]}))
-        path = self.write("i.cts.json", json.dumps({"roadmap": "r.json", "agents": [{"id": "a", "start": "A", "goal": "B"}], "tasks": []}))
+        path = self.write("i.cts.json", json.dumps({"roadmap": "r.json",
+                                                    "agents": [{"id": "a", "start": "A", "goal": "B"}], "tasks": []}))
         self.refused_for_memory("solve", path)
 
     def test_long_turns_and_durations_are_refused_for_memory(self):

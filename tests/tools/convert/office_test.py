@@ -142,7 +142,8 @@ class Office(unittest.TestCase):
 
     def test_map_without_free_cells_is_refused(self):
         self.write()
-        for options, text in ((("--robot-radius", "5"), "office.yaml: no cell is free on the map of cells of 0.5 m for robots of "
+        for options, text in ((("--robot-radius", "5"),
+                               "office.yaml: no cell is free on the map of cells of 0.5 m for robots of "
                                                         "radius 5 m; expected a smaller --robot-radius or --cell-size"),
                               (("--cell-size", "7", "--robot-radius", "0.5"), "no two neighbouring cells are free")):
             error = self.convert(*options, code=2)

@@ -10,7 +10,8 @@ from grove_driving.order import read_order
 class Frames(unittest.TestCase):
     def test_metres_of_a_shifted_map_convert_to_cells(self):
         orders.order_file("dense")
-        orders.grove("execute", "dense.cts.json", "dense.plan.json", "--order", "shifted.order.json", "--cell-size", "0.8",
+        orders.grove("execute", "dense.cts.json", "dense.plan.json", "--order", "shifted.order.json", "--cell-size",
+                     "0.8",
                      "--origin", "-3,2.5")
         order = read_order(orders.folder() / "shifted.order.json")
         frame = Frame(order)

@@ -43,7 +43,8 @@ class Reading(unittest.TestCase):
         self.assertEqual([a.visits for a in other.actions if a.visits], [("look",)])
 
     def test_all_kinds_of_actions_are_read(self):
-        kinds = {a.kind for name in ("dense", "work", "round") for r in read_order(orders.order_file(name)).robots for a in r.actions}
+        kinds = {a.kind for name in ("dense", "work", "round") for r in read_order(orders.order_file(name)).robots
+                 for a in r.actions}
         self.assertEqual(kinds, {"move", "turn", "work"})
 
     def refuse(self, change, place, *texts):

@@ -70,7 +70,8 @@ class Browser(unittest.TestCase):
 
     def test_false_claim_is_visible_and_figures_fit_400_pixels(self):
         found = list(synthetic.solver_rows(1, agents=(20, 60)))
-        found[3] |= {"status": "invalid", "solved": False, "cost": None, "error": "the plan is wrong: agents 3 and 7 collide"}
+        found[3] |= {"status": "invalid", "solved": False, "cost": None,
+                     "error": "the plan is wrong: agents 3 and 7 collide"}
         page = self.report(found)
         page_visit = self.browser.visit(page, size=(400, 2400))
         self.assertEqual((page_visit.console, page_visit.requests), ([], []))

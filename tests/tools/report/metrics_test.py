@@ -15,7 +15,7 @@ sys.path[:0] = [str(Path(__file__).resolve().parents[3] / "tools/report"),
 import synthetic  # noqa: E402
 from grove_report import anytime, logs, metrics, plans, proofs, rows, scales, speedup, style, tracker  # noqa: E402
 from grove_report.lines import Line, Lines, families  # noqa: E402
-from grove_report.metrics import Cell  # noqa: E402
+from grove_report.metrics import Configuration  # noqa: E402
 from grove_report.rows import BadInput, read_results  # noqa: E402
 from grove_report.tables import csv_text, csv_value, html_table, seconds, text_of_cell, word  # noqa: E402
 
@@ -225,7 +225,8 @@ class Refusals(Folder):
 
 class Measures(unittest.TestCase):
     def test_measures_of_four_rows(self):
-        found = measures([row(runtime_s=1.0, sqr=0.9, roots=4, rtsp_calls=10), row(instance="j", runtime_s=3.0, sqr=0.8, roots=2),
+        found = measures([row(runtime_s=1.0, sqr=0.9, roots=4, rtsp_calls=10),
+                          row(instance="j", runtime_s=3.0, sqr=0.8, roots=2),
                           failed(instance="k", roots=30), failed(instance="l")])
         self.assertEqual((found.instances, found.runs, found.solved, found.success), (4, 4, 2, 0.5))
         self.assertEqual(found.mean_runtime_s, (1 + 3 + 100 + 100) / 4)
@@ -310,12 +311,12 @@ class Measures(unittest.TestCase):
         self.assertLess(exact.mean_sqr, other.mean_sqr)
         self.assertEqual((exact.mean_cost_ratio, other.mean_cost_ratio), (1, 1.1))
 
-    def test_cells_separate_methods_omegas_and_limits(self):
+    def test_configurations_separate_methods_omegas_and_limits(self):
         made = [row(), row(omega="0"), row(time_limit_s=7.0), row(tasks=20, method="b")]
-        found = metrics.by_cell(made, metrics.best_costs(made))
-        self.assertEqual({cell: set(lines) for cell, lines in found.items()},
-                         {Cell("m", 5, 10): {Line("a", "", 100), Line("a", "0", 100), Line("a", "", 7.0)},
-                          Cell("m", 5, 20): {Line("b", "", 100)}})
+        found = metrics.by_configuration(made, metrics.best_costs(made))
+        self.assertEqual({configuration: set(lines) for configuration, lines in found.items()},
+                         {Configuration("m", 5, 10): {Line("a", "", 100), Line("a", "0", 100), Line("a", "", 7.0)},
+                          Configuration("m", 5, 20): {Line("b", "", 100)}})
 
     def test_median_run_of_several_seeds(self):
         def time_of(*runs):
@@ -549,14 +550,16 @@ class Logs(Folder):
                         {"event": "counts", "time_s": 0.1, "counts": {}},
                         {"event": "progress", "time_s": 0.2, "lower_bound": 8, "incumbent": None},
                         {"event": "incumbent", "time_s": 0.5, "lower_bound": 8, "incumbent": 12},
-                        {"event": "summary", "status": "bounded", "cost": 12, "lower_bound": 9, "stats": {"wall_s": 2.5}})
+                        {"event": "summary", "status": "bounded", "cost": 12, "lower_bound": 9,
+                         "stats": {"wall_s": 2.5}})
         run = logs.read_log(path)
         self.assertEqual((run.name, run.instance, run.agents, run.status, run.end_s),
                          ("a", "maps/i.cts.json", 5, "bounded", 2.5))
         self.assertEqual([tuple(moment) for moment in run.moments], [(0.1, None, 8), (0.5, 12, 8), (2.5, 12, 9)])
 
     def test_log_with_incomplete_last_line(self):
-        run = logs.read_log(self.log("a.jsonl", {"event": "bound", "time_s": 1, "lower_bound": 8}, end='\n{"event": "b'))
+        run = logs.read_log(self.log("a.jsonl", {"event": "bound", "time_s": 1, "lower_bound": 8},
+                                     end='\n{"event": "b'))
         self.assertEqual((run.status, len(run.moments)), ("", 1))
 
     def test_logs_are_recognised_by_their_first_line(self):
@@ -609,13 +612,15 @@ class Tracker(Folder):
         found = [self.row(plan_file=cheap, lower_bound=4), self.row(seed=1, cost=7, plan_file="expensive"),
                  self.row(instance="random-32-32-20-random-4-2", cost=None, status="unknown", solved=False),
                  self.row(instance="mine-random-3-2", map="mine"),
-                 self.row(instance="random-32-32-20-random-5-2", plan_file=self.plan("b", self.grove_plan(path, [[1, 2], [3, 2]]))),
+                 self.row(instance="random-32-32-20-random-5-2",
+                          plan_file=self.plan("b", self.grove_plan(path, [[1, 2], [3, 2]]))),
                  self.row(instance="random-32-32-20-random-6-2")]
         done = tracker.submission(found, metrics.best_costs(found))
-        self.assertEqual(done.text, "map_name,scen_type,type_id,agents,lower_cost,solution_cost,flip_up_down,solution_plan\n"
+        self.assertEqual(done.text,
+                         "map_name,scen_type,type_id,agents,lower_cost,solution_cost,flip_up_down,solution_plan\n"
                                     'random-32-32-20,random,3,2,4,5,FALSE,"rwu\n2d"\n')
-        self.assertEqual(sum(done.left_out.values()), 5)
-        self.assertEqual(sorted(why.replace(f"{self.folder}/", "") for why in done.left_out), [
+        self.assertEqual(sum(done.omitted.values()), 5)
+        self.assertEqual(sorted(why.replace(f"{self.folder}/", "") for why in done.omitted), [
             "b: agent 1 jumps at time 1",
             "not of a scenario of the Moving AI benchmark (expected the name MAP-even-N-AGENTS or MAP-random-N-AGENTS)",
             "not the cheapest plan of the instance",
@@ -650,7 +655,8 @@ class Tracker(Folder):
         head = "map_name,scen_type,type_id,agents,lower_cost,solution_cost,flip_up_down,solution_plan\n"
         for name, text in (
                 ("a.csv", f'{head}random-32-32-20,random,3,2,4,6,true,"u\n{"d" * 200000}"\n'),
-                ("random-32-32-20.csv", '\ufeff"scen_type","type_id","agents","lower_cost","lower_date","solution_cost"\r\n'
+                ("random-32-32-20.csv",
+                 '\ufeff"scen_type","type_id","agents","lower_cost","lower_date","solution_cost"\r\n'
                                         '"random","3","2","4","2022-11-29","6"\r\n'),
                 ("random-32-32-20-random-3.csv", "agents,lower_cost,solution_cost\n2,4,6\n"),
                 ("b.json", json.dumps([{"map_name": "random-32-32-20", "scen_type": "random", "type_id": 3, "agents": 2,
@@ -718,7 +724,8 @@ class CommonInstances(unittest.TestCase):
         self.assertEqual((measured.common, measured.common_sqr), (0, None))
 
     def test_common_instances_are_solved_with_every_seed(self):
-        found = [row(method="a", seed=1, sqr=0.8, cost=12, runtime_s=2), row(method="a", seed=2, sqr=0.6, cost=14, runtime_s=4),
+        found = [row(method="a", seed=1, sqr=0.8, cost=12, runtime_s=2),
+                 row(method="a", seed=2, sqr=0.6, cost=14, runtime_s=4),
                  row(method="b", seed=1, sqr=1.0, cost=10)]
         a = self.measured(found)["a"]
         self.assertEqual((a.common, a.common_mean_cost, a.common_median_cost, a.common_mean_s), (1, 13, 13, 3))

@@ -29,7 +29,8 @@ import synthetic  # noqa: E402
 GROVE = Path("build/release/bin/grove")
 FIGURES = ["cactus_cts", "cactus_mg", "comparison_cts", "comparison_mg", "omega_study", "splits_cts", "splits_mg"]
 TABLES = ["common_cts", "common_mg", "comparison_cts", "comparison_mg", "contradictions", "false_claims", "omega_study",
-          "only_solver_cts", "only_solver_mg", "search_cts", "search_mg", "speedup_cts", "speedup_mg", "summary_cts", "summary_mg"]
+          "only_solver_cts", "only_solver_mg", "search_cts", "search_mg", "speedup_cts", "speedup_mg", "summary_cts",
+          "summary_mg"]
 MAX_SECONDS = 30  # limit on processor time: 5 s on an idle machine, more than twice that on a busy one
 
 
@@ -131,7 +132,8 @@ class Reports(Folder):
             self.assertEqual((self.folder / f"out/{name}.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
         elements = Elements(page)
         self.assertTrue(elements.balanced)
-        self.assertEqual(sorted(elements.downloads), sorted(f"{name}.csv" for name in TABLES if name not in ("contradictions", "false_claims")))
+        self.assertEqual(sorted(elements.downloads),
+                         sorted(f"{name}.csv" for name in TABLES if name not in ("contradictions", "false_claims")))
         self.assertEqual(sum(each.startswith("data:image/svg") for each in elements.references), len(FIGURES))
         for reference in elements.references:
             self.assertTrue(reference.startswith(("data:", "#")), reference[:80])
@@ -163,19 +165,19 @@ class Reports(Folder):
     def test_tables_agree_with_the_rows(self):
         found = list(few(4, agents=(20,)))
         self.report(self.results(found))
-        cell = [row for row in found if (row["problem"], row["method"], row["map"], row["agents"],
+        group = [row for row in found if (row["problem"], row["method"], row["map"], row["agents"],
                                          row["tasks"]) == ("mg", "hcbs", "room-32-32-4", 20, 30)]
         entry, = [row for row in self.table("comparison_mg")
                   if (row["method"], row["map"], row["agents"], row["tasks"])
                   == ("hcbs", "room-32-32-4", "20", "30")]
-        self.assertEqual(int(entry["solved"]), sum(row["solved"] for row in cell))
+        self.assertEqual(int(entry["solved"]), sum(row["solved"] for row in group))
         self.assertAlmostEqual(float(entry["mean_runtime_s"]),
-                               sum(row["runtime_s"] for row in cell) / len(cell), places=2)
+                               sum(row["runtime_s"] for row in group) / len(group), places=2)
         self.assertEqual({row["omega"] for row in self.table("omega_study")}, {"0", "0.01", "0.1", "inf"})
 
     def test_page_and_file_list_every_cell_and_method(self):
         page, _ = self.report(self.results([row for row in few(1) if row["problem"] == "mg"]))
-        table = page.split("Table: every cell (map, N, M) and method</summary>")[1].split("</details>")[0]
+        table = page.split("Table: every configuration (map, N, M) and method</summary>")[1].split("</details>")[0]
         self.assertEqual(table.count("<tr>"), 1 + len(self.table("comparison_mg")))
         for column in ("success rate", "median s (failures = limit)", "mean SQR (solved runs)"):
             self.assertIn(f">{column}</th>", table)
@@ -223,7 +225,8 @@ class Reports(Folder):
         page, _ = self.report(self.results(found))
         self.assertEqual(self.table("search_mg"), [
             {"method": "auto", "omega": "0.01", "time_limit_s": "180", "runs": "2", "bypasses": "13",
-             "branching_cost_queries": "40", "branching_cost_hits": "20", "splits_vertex_edge": "8", "splits_new_kind": "1"}])
+             "branching_cost_queries": "40", "branching_cost_hits": "20", "splits_vertex_edge": "8",
+             "splits_new_kind": "1"}])
         table = page.split("Table: other counters</summary>")[1].split("</details>")[0]
         self.assertEqual(re.findall(r'<td>([^<]*)</td><td class="number">([^<]*)', table),
                          [("bypasses: another path of the same cost", "6.5"),
@@ -266,7 +269,7 @@ class Reports(Folder):
                      "mgcbs, limit 999 s"):
             self.assertIn(text, page)
 
-    def test_missing_cells_are_reported(self):
+    def test_missing_configurations_are_reported(self):
         found = [row for row in few(1, study=False) if row["method"] != "hcbs" or row["tasks"] != 30]
         page, _ = self.report(self.results(found))
         self.assertIn("not every method was run on all 2 instances (hcbs, ω = 0: 1)", page)
@@ -302,8 +305,9 @@ class Reports(Folder):
     def test_results_of_other_solvers_are_reported(self):
         """Checks success rates, quality over time, seeds as repetitions, and commonly solved instances."""
         found = list(synthetic.solver_rows(3, agents=(20, 60, 100)))
-        found.append(found[0] | {"method": "turns", "solver": "mine", "status": "unsuitable", "solved": False, "cost": None,
-                                 "trace": None, "error": "robots that turn"})
+        found.append(found[0]
+                     | {"method": "turns", "solver": "mine", "status": "unsuitable", "solved": False, "cost": None,
+                        "trace": None, "error": "robots that turn"})
         page, stderr = self.report(self.results(found))
         self.assertEqual(stderr, "")
         for text in ('alt="Success rate over the number of agents"', 'alt="Quality over time"',
@@ -315,15 +319,17 @@ class Reports(Folder):
             self.assertTrue((self.folder / f"out/{name}.svg").exists())
         entry, = [row for row in self.table("success_mapf") if (row["map"], row["agents"], row["method"])
                   == ("random-32-32-20", "100", "eecbs")]
-        cell = [row for row in found if (row["map"], row["agents"], row["method"]) == ("random-32-32-20", 100, "eecbs")]
+        group = [row for row in found
+                 if (row["map"], row["agents"], row["method"]) == ("random-32-32-20", 100, "eecbs")]
         self.assertEqual((entry["instances"], entry["seeds"], entry["runs"]), ("3", "2", "6"))
-        self.assertEqual(entry["success_rate"], f"{sum(row['solved'] for row in cell) / 6:.6g}")
+        self.assertEqual(entry["success_rate"], f"{sum(row['solved'] for row in group) / 6:.6g}")
         # Methods that do not improve their plans have no curve over time.
         curves = self.table("anytime_mapf")
         self.assertEqual({row["method"] for row in curves}, {"auto", "lacam", "lns"})
         last = [row for row in curves if (row["panel"], row["method"], row["time_s"]) == ("empty-32-32", "lns", "30")]
         costs = [row for row in found if row["map"] == "empty-32-32" and row["cost"]]
-        best = {name: min(row["cost"] for row in costs if row["instance"] == name) for name in {row["instance"] for row in costs}}
+        best = {name: min(row["cost"] for row in costs if row["instance"] == name)
+                for name in {row["instance"] for row in costs}}
         ratios = [row["cost"] / best[row["instance"]] for row in costs if row["method"] == "lns"]
         self.assertEqual((last[0]["common"], last[0]["mean_cost_ratio"]), ("9", f"{sum(ratios) / 18:.6g}"))
         common = self.table("common_mapf")
@@ -339,7 +345,8 @@ class Reports(Folder):
         page, _ = self.report(self.results(found))
         self.assertNotIn("FALSE CLAIMS", page)
         first, second, third, fourth = [row for row in found if row["method"] == "eecbs"]
-        first.update(status="wrong", solved=False, cost=None, error="the plan is wrong: agents 3 and 7 collide at time 12")
+        first.update(status="wrong", solved=False, cost=None,
+                     error="the plan is wrong: agents 3 and 7 collide at time 12")
         second["claimed_cost"] -= 1
         third["claimed_lower_bound"] = 10**6
         fourth.update(status="claimed", solved=False, cost=None, error="claims a plan without writing one")
@@ -361,11 +368,13 @@ class Reports(Folder):
         """Checks reports on logs of `grove solve`, without a table of results and in a folder with one."""
         instance = Path(__file__).resolve().parents[3] / "benchmarks/data/rooms-32x32_n5_m10.cts.json"
         for seed in (1, 2):
-            subprocess.run([str(GROVE), "solve", str(instance), "--omega", "0", "--seed", str(seed), "--threads", "1", "--quiet",
+            subprocess.run([str(GROVE), "solve", str(instance), "--omega", "0", "--seed", str(seed), "--threads", "1",
+                            "--quiet",
                             "--log", f"seed-{seed}.jsonl", "--log-format", "jsonl", "--output", f"{seed}.plan.json"],
                            cwd=self.folder, check=True)
         done = run_here(self.folder, "-o", self.folder / "out")
-        self.assertEqual((done.returncode, done.stdout), (0, f"wrote {self.folder}/out/report.html: 2 logs\n"), done.stderr)
+        self.assertEqual((done.returncode, done.stdout), (0, f"wrote {self.folder}/out/report.html: 2 logs\n"),
+                         done.stderr)
         rows = self.table("runs")
         self.assertEqual({row["log"] for row in rows}, {"seed-1", "seed-2"})
         for name in ("seed-1", "seed-2"):
@@ -382,9 +391,12 @@ class Reports(Folder):
 
     def test_tracker_rows_and_best_known_values(self):
         """Compares the submission with rows from `grove convert`, and results with the best known values."""
-        shutil.copy(Path(__file__).resolve().parents[3] / "benchmarks/data/empty-32x32.map", self.folder / "empty-32-32.map")
-        scenario = (Path(__file__).resolve().parents[3] / "benchmarks/data/empty-32x32.scen").read_text(encoding="utf-8")
-        (self.folder / "empty-32-32-even-3.scen").write_text(scenario.replace("empty-32x32", "empty-32-32"), encoding="utf-8")
+        shutil.copy(Path(__file__).resolve().parents[3] / "benchmarks/data/empty-32x32.map",
+                    self.folder / "empty-32-32.map")
+        data = Path(__file__).resolve().parents[3] / "benchmarks/data"
+        scenario = (data / "empty-32x32.scen").read_text(encoding="utf-8")
+        (self.folder / "empty-32-32-even-3.scen").write_text(scenario.replace("empty-32x32", "empty-32-32"),
+                                                             encoding="utf-8")
         subprocess.run([str(GROVE), "bench", str(self.folder / "empty-32-32-even-3.scen"), "--agents", "3,8", "--run",
                         "first: --omega 0", "--run", "second: --omega inf", "--keep-plans", "--output-dir", "table",
                         "--time-limit", "10", "--quiet"], cwd=self.folder, check=True, capture_output=True)
@@ -392,18 +404,21 @@ class Reports(Folder):
         self.assertEqual(self.error_of(table, "--tracker", out), "--tracker: found plans of several methods; expected "
                          "--tracker-method first or second")
         done = run_here(table, "--tracker", out, "--tracker-method", "first")
-        self.assertEqual((done.returncode, done.stdout), (0, f"wrote {out}: 2 rows of first for MAPF Tracker\n"), done.stderr)
+        self.assertEqual((done.returncode, done.stdout), (0, f"wrote {out}: 2 rows of first for MAPF Tracker\n"),
+                         done.stderr)
         with out.open(encoding="utf-8", newline="") as file:
             submitted = list(csv.DictReader(file))
         for row, agents in zip(submitted, (3, 8)):
             subprocess.run([str(GROVE), "convert", "--plan", f"table/plans/first/empty-32-32-even-3-{agents}.plan.json",
-                            "empty-32-32-even-3.scen", "one.csv", "--map", "empty-32-32.map", "--agents", str(agents), "--to",
+                            "empty-32-32-even-3.scen", "one.csv", "--map", "empty-32-32.map", "--agents", str(agents),
+                            "--to",
                             "tracker-csv"], cwd=self.folder, check=True, capture_output=True)
             with (self.folder / "one.csv").open(encoding="utf-8", newline="") as file:
                 self.assertEqual(list(csv.DictReader(file)), [row])
         cost = int(submitted[1]["solution_cost"])
         known = self.folder / "empty-32-32.csv"
-        known.write_text(f"scen_type,type_id,agents,lower_cost,solution_cost\neven,3,8,{cost - 1},{cost + 1}\n", encoding="utf-8")
+        known.write_text(f"scen_type,type_id,agents,lower_cost,solution_cost\neven,3,8,{cost - 1},{cost + 1}\n",
+                         encoding="utf-8")
         page, stderr = self.report(table, "--best-known", known)
         self.assertEqual(stderr, "")
         first, second = self.table("best_known")
@@ -411,7 +426,8 @@ class Reports(Folder):
                          ("first", "true", "true", "true"))
         self.assertEqual((second["method"], second["cost_ratio"] != ""), ("second", True))
         self.assertIn("<h3>Improvements on the best known values</h3>", page)
-        known.write_text(f"scen_type,type_id,agents,lower_cost,solution_cost\neven,3,8,{cost + 1},{cost - 1}\n", encoding="utf-8")
+        known.write_text(f"scen_type,type_id,agents,lower_cost,solution_cost\neven,3,8,{cost + 1},{cost - 1}\n",
+                         encoding="utf-8")
         page, stderr = self.report(table, "--best-known", known)
         self.assertIn("grove: warning: proofs contradict each other", stderr)
         self.assertIn(f"MAPF Tracker has a lower bound of {cost + 1}; a plan costs {cost}", page)

@@ -43,7 +43,8 @@ def _counts(method, nodes):
     """Returns the search counters as text, or None for baselines, which have no counters."""
     if not method.startswith(("auto", "cts")):
         return None
-    found = {"bypasses": nodes // 9, "joint_mdd_nodes": 30 * nodes, "branching_cost_queries": 8 * nodes, "branching_cost_hits": 6 * nodes,
+    found = {"bypasses": nodes // 9, "joint_mdd_nodes": 30 * nodes, "branching_cost_queries": 8 * nodes,
+             "branching_cost_hits": 6 * nodes,
              "splits_vertex_edge": nodes // 2, "splits_corridor": nodes // 5, "splits_target": nodes // 30,
              "splits_cost": nodes // 7}
     return " ".join(f"{name}={number}" for name, number in found.items() if number) or None
@@ -125,8 +126,10 @@ def _solver_row(dice, place, method, seed, shape):
     row = {
         "instance": f"{name}-random-{scenario}-{agents}", "method": method, "options": "", "map": name,
         "scenario": scenario, "agents": agents, "tasks": 0, "problem": "mapf", "omega": "" if adapter else "0.01",
-        "seed": seed, "time_limit_s": limit, "solved": solved, "status": "feasible" if solved else "unknown", "cost": cost,
-        "lower_bound": None if adapter else bound, "root_cost": bound, "runtime_s": round(seconds if solved else limit, 4),
+        "seed": seed, "time_limit_s": limit, "solved": solved, "status": "feasible" if solved else "unknown",
+        "cost": cost,
+        "lower_bound": None if adapter else bound, "root_cost": bound,
+        "runtime_s": round(seconds if solved else limit, 4),
         "wall_s": round(ended, 4), "first_plan_s": round(seconds, 4) if solved else None, "version": "grove 0.1.0",
         "machine": "Example processor, 2 cores", "ended_at": "2026-01-02T03:04:05Z", "ranks": 1, "threads": 1,
         "instance_digest": f"{name}{scenario}", "solver": adapter or None, "anytime": anytime,
@@ -138,10 +141,12 @@ def _solver_row(dice, place, method, seed, shape):
 
 
 SOLVERS = {"auto": (-3.5, 1.9, 0.10, 0.006, "", False, True), "lns": (-4.0, 1.2, 0.30, 0.02, "mapf-lns2", True, False),
-           "lacam": (-5.0, 0.5, 0.60, 0.05, "lacam3", True, False), "eecbs": (-3.0, 2.3, 0, 0.012, "eecbs", False, True)}
+           "lacam": (-5.0, 0.5, 0.60, 0.05, "lacam3", True, False),
+           "eecbs": (-3.0, 2.3, 0, 0.012, "eecbs", False, True)}
 
 
-def solver_rows(scenarios=5, maps=("empty-32-32", "random-32-32-20"), agents=(20, 40, 60, 80, 100), seeds=(1, 2), seed=1):
+def solver_rows(scenarios=5, maps=("empty-32-32", "random-32-32-20"), agents=(20, 40, 60, 80, 100), seeds=(1, 2),
+                seed=1):
     """Yields rows of Grove and three other solvers for classical MAPF."""
     dice = random.Random(seed)
     for name in maps:

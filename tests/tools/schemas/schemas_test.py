@@ -152,7 +152,8 @@ class ShippedFiles(Case):
         for block in text.split("```json\n")[1:]:
             value = json.loads(block.split("```")[0])
             schema = ("roadmap" if "vertices" in value else "instance" if "agents" in value and "tasks" in value
-                      else "solver" if "command" in value else "change" if "cell" in value or "tasks" in value else None)
+                      else "solver" if "command" in value else "change" if "cell" in value
+                      or "tasks" in value else None)
             if schema:
                 seen.add(schema)
                 self.assert_valid(schema, value, block)
@@ -192,7 +193,8 @@ class WrittenFiles(Case):
 
     def hard_instance(self):
         robots = 14
-        (self.folder / "corridor.map").write_text(f"type octile\nheight 2\nwidth {robots}\nmap\n" + ("." * robots + "\n") * 2)
+        (self.folder / "corridor.map").write_text(f"type octile\nheight 2\nwidth {robots}\nmap\n"
+                                                  + ("." * robots + "\n") * 2)
         return self.write("hard.cts.json", {"map": "corridor.map", "tasks": [], "agents": [
             {"id": f"a{i}", "start": [i, 0], "goal": [robots - 1 - i, 1]} for i in range(robots)]})
 
@@ -238,7 +240,8 @@ class WrittenFiles(Case):
         for change in cases:
             self.assert_valid("change", change)
             done = grove("replan", DATA / "shop.cts.json", "shop.plan.json", "--at", 9, "--commit", 1, "--new-task",
-                         self.write("change.json", change), "-o", "then.plan.json", "--output-instance", "then.cts.json",
+                         self.write("change.json", change), "-o", "then.plan.json", "--output-instance",
+                         "then.cts.json",
                          cwd=self.folder)
             self.assertNotIn("unknown key", done.stderr)
             self.assert_valid("plan", load(self.folder / "then.plan.json"))
@@ -282,7 +285,8 @@ class RefusedFiles(Case):
                               {**load(DATA / "yard.cts.json"), "roadmap": "broken.roadmap.json"})
         if kind == "roadmap":
             self.write("broken.roadmap.json", value)
-        done = subprocess.run([VERIFY, instance, "/dev/null"], capture_output=True, text=True, timeout=60, cwd=self.folder)
+        done = subprocess.run([VERIFY, instance, "/dev/null"], capture_output=True, text=True, timeout=60,
+                              cwd=self.folder)
         self.assertEqual(done.returncode, 2, done.stdout)
         return not done.stdout.startswith("unreadable: line ")  # refused because of the certificate
 
@@ -308,10 +312,12 @@ class RefusedFiles(Case):
         elif kind == "plan":
             done = grove("check", DATA / "shop.cts.json", path, code=None)
         elif kind == "change":
-            done = grove("replan", DATA / "shop.cts.json", self.plan_of_shop(), "--at", 0, "--new-task", path, "-o", "-",
+            done = grove("replan", DATA / "shop.cts.json", self.plan_of_shop(), "--at", 0, "--new-task", path, "-o",
+                         "-",
                          "--quiet", "--output-instance", "then.cts.json", cwd=self.folder, code=None)
         else:
-            done = grove("bench", DATA / "first.cts.json", "--solver", f"mine={path}:/bin/true", "--output-dir", "table",
+            done = grove("bench", DATA / "first.cts.json", "--solver", f"mine={path}:/bin/true", "--output-dir",
+                         "table",
                          "--quiet", "--time-limit", 1, cwd=self.folder, code=None)
             shutil.rmtree(self.folder / "table", ignore_errors=True)
         self.assertIn(done.returncode, (0, 2), done.stderr)
@@ -398,7 +404,8 @@ class RefusedFiles(Case):
             objects = [path for path, value in self.each_place(whole) if isinstance(value, dict)]
             self.assertGreater(len(objects), 1)
             for path in objects:
-                for key, good in (("_note", True), ("_", True), ("$schema", True), ("note", False), ("deadline", False), ("$note", False)):
+                for key, good in (("_note", True), ("_", True), ("$schema", True), ("note", False), ("deadline", False),
+                                  ("$note", False)):
                     changed = copy.deepcopy(whole)
                     inner = changed
                     for step in path:
@@ -517,7 +524,8 @@ class SchemaKey(Case):
         self.assertEqual(grove("check", instance, self.write("y.plan.json", plan)).stderr, "")
         adapter = {"$schema": "solver.schema.json", "name": "mine", "command": "{program} {map} {scenario}"}
         self.assert_valid("solver", adapter)
-        done = grove("bench", DATA / "empty-32x32.scen", "--agents", 1, "--time-limit", 1, "--quiet", "--output-dir", "table", "--solver",
+        done = grove("bench", DATA / "empty-32x32.scen", "--agents", 1, "--time-limit", 1, "--quiet", "--output-dir",
+                     "table", "--solver",
                      f"mine={self.write('mine.json', adapter)}:/bin/false", cwd=self.folder, code=None)
         self.assertNotIn("schema", done.stderr)
         self.assertTrue((self.folder / "table/results.jsonl").exists())

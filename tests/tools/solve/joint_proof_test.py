@@ -29,7 +29,8 @@ class JointProof(unittest.TestCase):
         """Solves the instance and returns standard error and the plan file."""
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
-            (folder / "m.map").write_text(f"type octile\nheight {len(rows)}\nwidth {len(rows[0])}\nmap\n" + "\n".join(rows) + "\n")
+            (folder / "m.map").write_text(f"type octile\nheight {len(rows)}\nwidth {len(rows[0])}\nmap\n"
+                                          + "\n".join(rows) + "\n")
             (folder / "i.cts.json").write_text(json.dumps({"map": "m.map", **instance}))
             done = subprocess.run([self.grove, "solve", "i.cts.json", "--omega", "0", "--threads", "1", "--quiet",
                                    "--proof", "c.proof", "-o", "p.json"], cwd=folder, capture_output=True, text=True)

@@ -34,7 +34,8 @@ class Outputs(unittest.TestCase):
                     "--seed", 1, "-o", self.hard)
 
     def run_it(self, *words, **more):
-        return subprocess.run([GROVE, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=TIMEOUT_S,
+        return subprocess.run([GROVE, *map(str, words)], cwd=self.folder, capture_output=True, text=True,
+                              timeout=TIMEOUT_S,
                               check=False, **more)
 
     def start(self, *words, **more):
@@ -68,9 +69,11 @@ class OneAtATime(Outputs):
             mine = ["-o", "y.plan.json"] if option != "-o" else []
             done = self.run_it("solve", QUICK, option, name, *mine)
             self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
-            self.assertRegex(done.stderr, rf"^grove: error: x.*: is being written by another run \(process {running.pid} on host .*\); "
+            self.assertRegex(done.stderr, r"^grove: error: x.*: is being written by another run "
+                                          rf"\(process {running.pid} on host .*\); "
                                           "expected another name, or the end of that run\n$")
-        for done in (self.run_it("solve", QUICK, "-o", "link"), self.run_it("replan", QUICK, "q.plan.json", "--at", 0, "-o", "x.plan.json")):
+        for done in (self.run_it("solve", QUICK, "-o", "link"),
+                     self.run_it("replan", QUICK, "q.plan.json", "--at", 0, "-o", "x.plan.json")):
             self.assertEqual(done.returncode, 2)
             self.assertIn("is being written by another run", done.stderr)
         running.send_signal(signal.SIGTERM)
@@ -94,7 +97,8 @@ class Links(Outputs):
         kept.mkdir()
         victim = self.folder / "victim"
         victim.write_text("precious")
-        for name, words in (("kept/checkpoint.lock", ("--checkpoint", "kept")), (".grove-x.proof.lock", ("--proof", "x.proof"))):
+        for name, words in (("kept/checkpoint.lock", ("--checkpoint", "kept")),
+                            (".grove-x.proof.lock", ("--proof", "x.proof"))):
             (self.folder / name).symlink_to(victim)
             done = self.run_it("solve", QUICK, "-o", "q.plan.json", *words)
             self.assertEqual(done.returncode, 2, done.stderr)
@@ -115,11 +119,14 @@ class Permissions(Outputs):
         for mask, expected in ((0o077, 0o600), (0o022, 0o644), (0o002, 0o664)):
             folder = self.folder / f"{mask:o}"
             folder.mkdir()
-            done = subprocess.run([GROVE, "solve", QUICK, "--checkpoint", "kept", "--log", "run.log", "--proof", "c.proof",
-                                   "--incumbents", "i", "--quiet"], cwd=folder, umask=mask, capture_output=True, text=True, check=False)
+            done = subprocess.run([GROVE, "solve", QUICK, "--checkpoint", "kept", "--log", "run.log", "--proof",
+                                   "c.proof",
+                                   "--incumbents", "i", "--quiet"], cwd=folder, umask=mask, capture_output=True,
+                                  text=True, check=False)
             self.assertEqual(done.returncode, 0, done.stderr)
             found = [path for path in folder.rglob("*") if path.is_file()]
-            self.assertTrue({"checkpoint.grove", "checkpoint.lock", "run.log", "c.proof", "first.plan.json"} <= {path.name for path in found}, found)
+            self.assertTrue({"checkpoint.grove", "checkpoint.lock", "run.log", "c.proof",
+                             "first.plan.json"} <= {path.name for path in found}, found)
             for path in found:
                 self.assertEqual(oct(stat.S_IMODE(path.stat().st_mode)), oct(expected), path)
             self.assertEqual(stat.S_IMODE((folder / "kept").stat().st_mode), 0o777 & ~mask)
@@ -151,7 +158,8 @@ class FullDisk(Outputs):
         self.assertIn("No space left on device", done.stderr)
 
     def test_disk_full_during_recording_of_a_certificate(self):
-        running = self.start("solve", self.hard, "--omega", 0, "--time-limit", TIMEOUT_S, "-o", "x.plan.json", "--proof", "x.proof",
+        running = self.start("solve", self.hard, "--omega", 0, "--time-limit", TIMEOUT_S, "-o", "x.plan.json",
+                             "--proof", "x.proof",
                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000)))
         part = self.folder / "x.proof.part-0-0"
         output = self.read_until(running, "lower bound")

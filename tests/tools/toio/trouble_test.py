@@ -154,7 +154,8 @@ class Cubes(unittest.TestCase):
             self.assertGreater(world.least, BODY)
 
     def test_fatal_response_codes_are_reported(self):
-        for code, text in ((protocol.BAD_STATE, "switched off"), (protocol.UNSUPPORTED, "does not accept the commands")):
+        for code, text in ((protocol.BAD_STATE, "switched off"),
+                           (protocol.UNSUPPORTED, "does not accept the commands")):
             messages = []
             outcome, _ = plans.run(drive_with(Refusing, "dense", 10, {RED}, messages, code=code))
             self.assertIn(f"{RED} ", "".join(messages))

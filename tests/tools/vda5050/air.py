@@ -64,7 +64,8 @@ class Air:
             self.schedule(self.on_vehicle_message, robot.name, topic, message)
 
         speed = self.random.uniform(0.5, 3)
-        self.vehicles[robot.name] = SimulatedVehicle(PROTOCOLS[version], robot.name, "m", route.serial, route.nodes[0].at,
+        self.vehicles[robot.name] = SimulatedVehicle(PROTOCOLS[version], robot.name, "m", route.serial,
+                                                     route.nodes[0].at,
                                                      THETA.get(robot.heading, 0.0), self.world, publish, speed, math.pi)
         self.world.holders[route.nodes[0].id] = [self.vehicles[robot.name]]
         self.vehicles[robot.name].publish_state()

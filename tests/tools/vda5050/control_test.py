@@ -23,7 +23,8 @@ class Drives(unittest.TestCase):
     def check(self, one):
         self.assertTrue(one.drive(), list(one.control.reasons()))
         self.assertEqual((one.reports, one.world.collisions), ([], []))
-        done = {(v.route.robot, w.id) for v in one.control.vehicles.values() for n in v.route.nodes for w in n.works}
+        done = {(v.route.robot, w.id)
+                for v in one.control.vehicles.values() for n in v.route.nodes for w in n.node_actions}
         finished = {(robot, k) for robot, v in one.vehicles.items() for k, s in v.action_states.items()
                     if s[1] == "FINISHED"}
         self.assertEqual(done, finished)

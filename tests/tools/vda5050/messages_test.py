@@ -39,10 +39,12 @@ class Messages(unittest.TestCase):
             self.assertEqual(route.nodes[0].id, nodes[0]["nodeId"])
 
     def test_turns_are_orientations_of_edges(self):
-        for version, key, value in (("2.1.0", "rotationAllowed", False), ("3.0.0", "reachOrientationBeforeEntering", True)):
+        for version, key, value in (("2.1.0", "rotationAllowed", False),
+                                    ("3.0.0", "reachOrientationBeforeEntering", True)):
             for route, message in messages("work", version, 100, 100):
                 for edge in message["edges"]:
-                    self.assertEqual((edge["orientation"], edge["orientationType"], edge[key]), (0.0, "TANGENTIAL", value))
+                    self.assertEqual((edge["orientation"], edge["orientationType"], edge[key]),
+                                     (0.0, "TANGENTIAL", value))
                 self.assertEqual(["theta" in n["nodePosition"] for n in message["nodes"]],
                                  [False] * route.last + [True])
 

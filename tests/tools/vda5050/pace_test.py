@@ -70,12 +70,14 @@ class Drive:
         self.seconds = 0.0
         with tempfile.TemporaryDirectory() as folder:
             log_file = Path(folder) / "drive.jsonl"
-            a = cli._parser().parse_args(["trial", str(orders.order_file(name, False)), "--log", str(log_file), *options])
+            a = cli._parser().parse_args(["trial", str(orders.order_file(name, False)), "--log", str(log_file),
+                                          *options])
             setup, clock, broker = cli.Setup(a), Clock(a.pace, lambda: self.seconds), Broker()
             self.fleet = cli._fleet(a, setup, functools.partial(Connection, broker), clock)
             topics = [(setup.topics.topic("+", name), 0) for name in ("state", "connection")]
             with cli._log(a, setup) as log:
-                drive = cli._Drive(a, setup, Connection(broker, topics, pause=self.pause), clock, log, lambda text: None)
+                drive = cli._Drive(a, setup, Connection(broker, topics, pause=self.pause), clock, log,
+                                   lambda text: None)
                 self.completed = drive.run()
             self.summary = list(drive.summary())
             self.lines = [json.loads(line) for line in log_file.read_text().splitlines()[1:]]
@@ -125,7 +127,8 @@ class Paces(unittest.TestCase):
 
     def test_slow_vehicles_are_late_at_any_pace(self):
         for pace in ("1", "10"):
-            in_time, slow = (drive("dense", "--pace", pace, "--turn-speed", "100000", "--speed", speed) for speed in ("2", "0.25"))
+            in_time, slow = (drive("dense", "--pace", pace, "--turn-speed", "100000", "--speed", speed)
+                             for speed in ("2", "0.25"))
             longest = max(end for _, end in planned_ends("dense").values())
             self.assertLess(max(lateness(in_time, "dense").values()), longest)
             self.assertGreater(max(lateness(slow, "dense").values()), 2.5 * longest)
@@ -140,11 +143,13 @@ class Paces(unittest.TestCase):
             self.assertGreater(min(lateness(one, "narrow").values()), 50)
 
     def test_message_delay_is_in_seconds_of_the_vehicles(self):
-        ends = [drive("many", "--pace", pace, "--delayed", "0.3", "--delay", "5", "--lost", "0.1").end for pace in ("1", "10")]
+        ends = [drive("many", "--pace", pace, "--delayed", "0.3", "--delay", "5", "--lost", "0.1").end
+                for pace in ("1", "10")]
         self.assertAlmostEqual(ends[1] / ends[0], 1, delta=0.4)
 
     def test_time_limit_is_in_real_seconds(self):
         one = drive("narrow", "--pace", "10", "--stop", "down@1=1000000", "--time-limit", "20")
         self.assertFalse(one.completed)
         self.assertAlmostEqual(one.seconds, 20, delta=0.5)
-        self.assertEqual(one.summary[0], f"Time          {10 * one.seconds:.1f} s of the vehicles, {one.seconds:.1f} s real")
+        self.assertEqual(one.summary[0],
+                         f"Time          {10 * one.seconds:.1f} s of the vehicles, {one.seconds:.1f} s real")

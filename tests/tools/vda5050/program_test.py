@@ -100,7 +100,8 @@ class OverABroker(unittest.TestCase):
     def test_trial_completes_all_tasks(self):
         with tempfile.TemporaryDirectory() as folder:
             log = Path(folder) / "drive.jsonl"
-            code, out, err = run("trial", order("many"), *FAST, "--protocol", "3.0", "--delayed", "0.05", "--delay", "1",
+            code, out, err = run("trial", order("many"), *FAST, "--protocol", "3.0", "--delayed", "0.05", "--delay",
+                                 "1",
                                  "--stop", "a1@1=2", "--log", log)
             self.assertEqual((code, err), (0, ""), out)
             for text in ("Vehicles      9 of 9 done", "no vehicle drove to an occupied place",

@@ -29,7 +29,7 @@ class Routes(unittest.TestCase):
         route = make_route(turning(), "red")
         self.assertEqual([n.id for n in route.nodes], ["0_0", "1_0", "1_1"])
         self.assertEqual([n.at for n in route.nodes], [(0.5, 1.5), (1.5, 1.5), (1.5, 0.5)])
-        self.assertEqual([[(w.kind, w.task, w.steps) for w in n.works] for n in route.nodes],
+        self.assertEqual([[(w.kind, w.task, w.steps) for w in n.node_actions] for n in route.nodes],
                          [[("visit", "shelf", 0)], [("work", "press", 5), ("work", "cut", 2)], []])
         self.assertEqual([n.theta for n in route.nodes], [None, None, math.pi])
         self.assertTrue(route.turns)
@@ -47,13 +47,13 @@ class Routes(unittest.TestCase):
                                  [robot.start] + [a.place for a in robot.actions if a.kind == "move"])
                 covered = [k for n in nodes for k in range(n.begin - (n is not nodes[0]), n.end)]
                 self.assertEqual(covered, list(range(len(robot.actions))))
-                tasks = [w.task for n in nodes for w in n.works]
+                tasks = [w.task for n in nodes for w in n.node_actions]
                 self.assertEqual(sorted(tasks), sorted([a.task for a in robot.actions if a.task] + list(robot.visits) +
                                                        [v for a in robot.actions for v in a.visits]))
 
     def test_completed_actions_follow_from_nodes_and_tasks(self):
         route = make_route(turning(), "red")
-        shelf, press, cut = (w.id for n in route.nodes for w in n.works)
+        shelf, press, cut = (w.id for n in route.nodes for w in n.node_actions)
         for reached, finished, done in ((0, [], 0), (0, [shelf], 0), (1, [shelf], 1), (1, [shelf, press], 2),
                                         (1, [shelf, cut], 1), (1, [shelf, press, cut], 4), (2, [], 6)):
             self.assertEqual(actions_done(route, reached, set(finished)), done, (reached, finished))

@@ -68,7 +68,8 @@ class Vehicle(unittest.TestCase):
     def test_wrong_orders_are_refused(self):
         for version, busy, outdated, gap, far, malformed in (
                 ("2.1.0", "orderError", "orderUpdateError", "orderUpdateError", "orderError", "validationError"),
-                ("3.0.0", "OTHER_ORDER_ACTIVE", "OUTDATED_ORDER_UPDATE", "VALIDATION_FAILURE", "START_NODE_OUT_OF_RANGE",
+                ("3.0.0", "OTHER_ORDER_ACTIVE", "OUTDATED_ORDER_UPDATE", "VALIDATION_FAILURE",
+                 "START_NODE_OUT_OF_RANGE",
                  "VALIDATION_FAILURE")):
             self.make(version)
             self.vehicle.receive(order(2, 3, 3))

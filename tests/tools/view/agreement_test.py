@@ -35,7 +35,8 @@ def random_roadmap(rng):
     edges += [rng.sample(range(count), 2) for _ in range(rng.randint(1, count))]
     # Adds parallel roads in random directions.
     edges += [rng.sample(edge, 2) for edge in rng.sample(edges, rng.randint(0, 2))]
-    roads = [{"from": f"v{a}", "to": f"v{b}", "steps": rng.randint(1, 4), "one_way": rng.random() < 0.25} for a, b in edges]
+    roads = [{"from": f"v{a}", "to": f"v{b}", "steps": rng.randint(1, 4), "one_way": rng.random() < 0.25}
+             for a, b in edges]
     return {"vertices": vertices, "edges": roads}, [v["id"] for v in vertices]
 
 
@@ -134,7 +135,8 @@ def features(instance):
     with_tasks = {agent for task in tasks for agent in task["agents"]}
     found = {
         "roadmap": "roadmap" in data,
-        "start on a road": "roadmap" in data and any(isinstance(a["start"], list) and len(a["start"]) > 2 for a in agents),
+        "start on a road": "roadmap" in data
+        and any(isinstance(a["start"], list) and len(a["start"]) > 2 for a in agents),
         "turning": any("motion" in a for a in agents),
         "start within a turn": any("motion" in a and len(a["start"]) == 5 for a in agents),
         "duration": any(task.get("duration") for task in tasks),

@@ -59,18 +59,18 @@ test("differences have costs and the order of visits", () => {
     [{ path: "@0;EWS" }, { path: "@11;W" }, { path: "@8;" }],
     [{ path: "@0;SNE" }, { path: "@11;W" }, { path: "@8;3.E" }]);
   assert.deepEqual(found.all, [
-    { agent: 0, costs: [3, 3], by: 0, parts: 1, orders: true },
-    { agent: 2, costs: [0, 4], by: 4, parts: 4, orders: false },
+    { agent: 0, costs: [3, 3], costChange: 0, firstDifference: 1, hasOtherOrder: true },
+    { agent: 2, costs: [0, 4], costChange: 4, firstDifference: 4, hasOtherOrder: false },
   ]);
   assert.deepEqual(found.costs, [4, 8]);
-  assert.equal(found.by, 4);
+  assert.equal(found.costChange, 4);
 });
 
 test("costs are not compared if a path is missing", () => {
   const found = comparison([kFree, { id: "b", start: 11 }], [],
     [{ path: "@0;E" }, { path: "@11;W" }], [{ path: "" }, { path: "@11;W" }]);
-  assert.deepEqual(found.all, [{ agent: 0, costs: [1, NaN], by: NaN, parts: 0, orders: false }]);
-  assert.ok(Number.isNaN(found.by));
+  assert.deepEqual(found.all, [{ agent: 0, costs: [1, NaN], costChange: NaN, firstDifference: 0, hasOtherOrder: false }]);
+  assert.ok(Number.isNaN(found.costChange));
 });
 
 test("one plan alone is not compared", () => {

@@ -40,10 +40,12 @@ class Controls(PageTest):
         self.browser.settle()
 
     def finger(self, kind, *points):
-        self.browser.call("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)])
+        self.browser.call("Input.dispatchTouchEvent", type=kind,
+                          touchPoints=[{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)])
 
     def test_time_controls(self):
-        for title, expected in (("One step forward", 1), ("To the end", 35), ("One step back", 34), ("To the beginning", 0)):
+        for title, expected in (("One step forward", 1), ("To the end", 35), ("One step back", 34),
+                                ("To the beginning", 0)):
             self.button(title)
             self.assertEqual(self.state("player.time"), expected)
         self.keys("PageDown", "PageDown", "PageUp", "ArrowRight")
@@ -174,7 +176,8 @@ class Controls(PageTest):
         self.assertEqual(self.text(".details h2"), "blue")
         self.assertEqual(self.evaluate("document.activeElement.className"), "row")
         self.choose_option("Kind of events", "all")
-        self.evaluate("(s => (s.value = 'dock', s.dispatchEvent(new Event('input'))))(document.querySelector('input[type=search]'))")
+        self.evaluate("(s => (s.value = 'dock', s.dispatchEvent(new "
+                      "Event('input'))))(document.querySelector('input[type=search]'))")
         self.assertEqual(self.texts(".row span[dir]"), ["dock is done", "4: dock"])
 
     def tearDown(self):

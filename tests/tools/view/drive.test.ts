@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { DriveApp } from "../../../tools/view/drive/app";
 import { readDrive } from "../../../tools/view/drive/columns";
-import { Drive, kStates, Sightings } from "../../../tools/view/drive/drive";
+import { Drive, kStates, Observations } from "../../../tools/view/drive/drive";
 import { lateness, mostLate } from "../../../tools/view/drive/late";
 import { Log } from "../../../tools/view/drive/log";
 import { DriveNow } from "../../../tools/view/drive/now";
@@ -42,8 +42,8 @@ function follow(text: string): Log {
 
 function read(...events: object[]) {
   const model = readModel(kModel);
-  const { drive, firstTrouble } = follow(log(kHeader, ...events));
-  assert.equal(firstTrouble, "");
+  const { drive, firstError } = follow(log(kHeader, ...events));
+  assert.equal(firstError, "");
   return { model, order: Order.read(kOrder, model), drive };
 }
 
@@ -53,12 +53,12 @@ function dice(seed = 1): (below: number) => number {
 }
 
 test("the last observation is found for times in any order", () => {
-  const sightings = new Sightings();
+  const observations = new Observations();
   const times: number[] = [];
   let time = 0;
   const draw = dice();
   for (let i = 0; i < 500; ++i) {
-    sightings.add(time, 0, 0, NaN, 0, 0);
+    observations.add(time, 0, 0, NaN, 0, 0);
     times.push(time);
     time += draw(3);
   }
@@ -66,7 +66,7 @@ test("the last observation is found for times in any order", () => {
     const at = i % 3 === 0 ? draw(Math.ceil(time) + 2) : (i % 700) / 2;
     let last = 0;
     times.forEach((t, k) => { if (t <= at) last = k; });
-    assert.equal(sightings.at(at), last);
+    assert.equal(observations.at(at), last);
   }
 });
 
@@ -138,8 +138,8 @@ test("wrong lines are skipped and counted", () => {
   const after = (...events: object[]) => follow(log(kHeader, ...events, { ...good, t: 9 }));
   const wrong = (expected: RegExp, ...events: object[]) => {
     const one = after(...events);
-    assert.match(one.firstTrouble, expected);
-    assert.equal(one.leftOut, 1);
+    assert.match(one.firstError, expected);
+    assert.equal(one.skippedLines, 1);
     assert.equal(one.drive.end, 9); // lines after the wrong line are read
   };
   wrong(/^line 2: robot: expected a robot that the first line names/, { ...good, robot: "z" });
@@ -150,19 +150,19 @@ test("wrong lines are skipped and counted", () => {
   wrong(/^line 3: t: expected seconds from 1 on/, good, { ...good, t: 0.5 });
   wrong(/^line 2: t: expected a number/, { ...good, t: "1" });
   wrong(/^line 2: t: expected seconds from 0 on/, { ...good, t: 1e300 });
-  assert.equal(after({ ...good, angle: 1e300 }).leftOut, 0);
+  assert.equal(after({ ...good, angle: 1e300 }).skippedLines, 0);
   const two = after({ ...good, t: -1 }, { ...good, action: -1 });
-  assert.equal(troubleText(two), "⚠ 2 lines of the log left out: line 2: t: expected seconds from 0 on");
+  assert.equal(troubleText(two), "⚠ 2 invalid log lines skipped; first: line 2: t: expected seconds from 0 on");
 });
 
 test("a log without its first line is refused", () => {
   const none = (expected: RegExp, text: string) => {
     const one = follow(text + log(line(1, "a", [1, 0], 1, "moving")));
     assert.match(troubleText(one), expected);
-    assert.equal(one.leftOut, 1);
+    assert.equal(one.skippedLines, 1);
     assert.equal(one.drive.order, "");
   };
-  none(/^This is not the log of a drive of this plan: line 1: format/, "{}\n");
+  none(/^This is not the log of an execution of this plan: line 1: format/, "{}\n");
   none(/line 1: robots\[0\]: expected a robot of the instance/, log({ ...kHeader, robots: ["z"] }));
   none(/line 1: the data is no JSON/, "{\n");
   assert.equal(troubleText(follow("")), "");

@@ -37,7 +37,8 @@ class DrivePages(pages.PageTest):
         self.browser.requests.clear()
 
     def run_grove(self, *words):
-        return subprocess.run([self.grove, *map(str, words)], cwd=self.folder, capture_output=True, text=True, check=True)
+        return subprocess.run([self.grove, *map(str, words)], cwd=self.folder, capture_output=True, text=True,
+                              check=True)
 
     def begin(self, *lines, robots=("a", "b")):
         header = {"format": "grove drive 1", "order": "o.json", "robots": robots, "seconds_per_step": 1.0}
@@ -70,7 +71,7 @@ class DrivePages(pages.PageTest):
             for one, other in zip(got, expected):
                 self.assertAlmostEqual(one, other, places=3)
         self.assertEqual(self.colours()["a", 0], MOVING)
-        self.assertIn("The drive has ended.", self.text(".strip"))
+        self.assertIn("The execution has ended.", self.text(".strip"))
         self.assertIn("moving · 0 of 4", self.text(".rows"))
         self.go(5)
         self.assertEqual(self.colours()["a", 0], COLLISION)
@@ -103,7 +104,8 @@ class DrivePages(pages.PageTest):
             with pages.Chromium("--disable-gpu", "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1") as browser:
                 self.browser = browser
                 browser.call("Page.navigate", url=address + "#t=5&agent=a")
-                self.wait_for("globalThis.grove?.app.player.time === 5 && grove.app.chosen === 0 && !grove.app.player.live")
+                self.wait_for("globalThis.grove?.app.player.time === 5 && grove.app.chosen === 0 && "
+                              "!grove.app.player.live")
                 browser.evaluate("document.querySelector('.golive').click()")
                 self.wait_for("location.hash === '#agent=a'")  # a live page has no time in its address
 
@@ -170,7 +172,8 @@ class DrivePages(pages.PageTest):
         self.quiet()
 
     def test_hostile_names_run_no_script(self):
-        instance = self.grid(3, 1, [{"id": ALERT, "start": [0, 0], "goal": [2, 0]}], [{"id": ALERT, "cell": [1, 0], "agents": [ALERT]}])
+        instance = self.grid(3, 1, [{"id": ALERT, "start": [0, 0], "goal": [2, 0]}],
+                             [{"id": ALERT, "cell": [1, 0], "agents": [ALERT]}])
         self.run_grove("solve", instance, "--quiet", "--output", self.plan_file)
         self.begin(line(0, ALERT, [0, 0], 0, "moving"), line(2, ALERT, [2, 0], 2, "done"), robots=(ALERT,))
         self.browser.open(self.drive_page())
@@ -190,7 +193,8 @@ class DrivePages(pages.PageTest):
         self.browser.evaluate("grove.app.player.go(grove.app.player.end), grove.app.changed()")
         self.browser.settle()
         self.assertIn("3 of 3 done", self.text(".strip"))
-        self.assertEqual(self.browser.evaluate("grove.app.tasks.every(({agents, times}) => times.length === agents.length)"), True)
+        self.assertEqual(self.browser.evaluate("grove.app.tasks.every(({agents, times}) => times.length === "
+                                               "agents.length)"), True)
         self.quiet()
 
     @contextlib.contextmanager
@@ -234,7 +238,8 @@ class DrivePages(pages.PageTest):
             for _ in range(5):
                 with urllib.request.urlopen(address) as answer:
                     answer.read()  # returns only when the server closes the connection
-            words = [self.grove, "view", self.instance_file, self.plan_file, "--drive", self.log, "--follow", "--port", port]
+            words = [self.grove, "view", self.instance_file, self.plan_file, "--drive", self.log, "--follow", "--port",
+                     port]
             second = subprocess.run(words, capture_output=True, text=True, timeout=120)
             self.assertEqual(second.returncode, 2)
             self.assertIn("--port: is in use", second.stderr)
@@ -244,13 +249,13 @@ class DrivePages(pages.PageTest):
 
     def follow(self, address):
         self.browser.call("Page.navigate", url=address)
-        self.until("Waiting for the drive to begin.")
+        self.until("Waiting for the execution to start.")
         self.begin(line(0, "a", [0, 0], 0, "moving"), line(0, "b", [0, 1], 0, "waiting"))
         self.until("Live.")
         self.add(line(20, "a", [1, 0], 1, "waiting"))
         self.until(lambda: abs(self.positions()[0][0] - 1.5) < 0.1)
         self.drag_the_slider(0.1)
-        self.until("The drive continues; this is an earlier moment.")
+        self.until("The execution continues; this is an earlier moment.")
         self.assertEqual(self.browser.evaluate("document.querySelector('.golive').ariaPressed"), "false")
         self.assertLess(before := self.browser.evaluate("grove.app.player.time"), 10)
         self.add(line(40, "a", [2, 0], 2, "moving"))
@@ -265,15 +270,15 @@ class DrivePages(pages.PageTest):
         self.add(whole[30:])
         self.until(lambda: self.browser.evaluate("grove.app.player.end") == 50)
         self.add(line(51, "a", [1, 0], 1, ALERT), line(51, "ghost", [1, 0], 1, "moving"), "{\n")
-        self.until("⚠ 3 lines of the log left out: line 7: state: expected one of")
+        self.until("⚠ 3 invalid log lines skipped; first: line 7: state: expected one of")
         self.add(line(60, "a", [4, 0], 4, "done"), line(60, "b", [0, 1], 0, "done"))
-        self.until("The drive has ended.")
+        self.until("The execution has ended.")
         self.until("2 of 2 done")
         self.begin(line(0, "a", [0, 0], 0, "moving"))  # a different execution
         self.until(lambda: self.browser.evaluate("grove.app.player.end") == 0)
-        self.assertNotIn("left out", self.text(".strip"))
+        self.assertNotIn("skipped", self.text(".strip"))
         self.log.write_text("no drive\n")
-        self.until("This is not the log of a drive of this plan: line 1: the data is no JSON")
+        self.until("This is not the log of an execution of this plan: line 1: the data is no JSON")
         self.assertEqual(self.browser.console, [])
         self.assertTrue(all(url.startswith(address) for url in self.browser.requests), self.browser.requests)
 
@@ -283,7 +288,8 @@ class DrivePages(pages.PageTest):
                                     "(document.querySelector('.time').getBoundingClientRect())")
         y = box[1] + box[3] / 2
         places = [box[0] + part_of * (box[2] - 16) + 8 for part_of in (0.95, 0.5, part)]
-        mouse = lambda kind, x, **more: self.browser.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)  # noqa: E731
+        mouse = lambda kind, x, **more: self.browser.call("Input.dispatchMouseEvent", type=kind, x=x, y=y,
+                                                          **more)  # noqa: E731
         mouse("mousePressed", places[0], button="left", buttons=1, clickCount=1)
         for x in places[1:]:
             mouse("mouseMoved", x, button="left", buttons=1)

@@ -16,15 +16,18 @@ from pages import DATA, PageTest, main
 RUN = "window.hacked=1"
 IDS = [
     f"</script><script>{RUN}</script>", f"<img src=x onerror={RUN}>", f"<svg onload={RUN}>", f"javascript:{RUN}",
-    f"\"'><iframe srcdoc='<script>parent.{RUN}</script>'>", f"${{{RUN}}}", "<!--", "]]>", "&lt;b&gt;", "__proto__", "constructor",
+    f"\"'><iframe srcdoc='<script>parent.{RUN}</script>'>", f"${{{RUN}}}", "<!--", "]]>", "&lt;b&gt;", "__proto__",
+    "constructor",
     "\u202egnol\u2066", "רובוט שלוש", "روبوت", "机器人🤖", "a\nb\tc", " ", "\u0001", "x" * 20_000, "long " * 4000,
 ]
 
 
 def data(**changes):
     """Returns the data of a page with one robot on a map, after `changes`."""
-    return {"format": "grove view 1", "instance": "test", "world": {"kind": "grid", "width": 4, "height": 3, "free": "12"},
-            "agents": [{"id": "a", "start": 0}], "tasks": [], "plans": [{"name": "p", "claims": {}, "agents": [{"path": "@0;3E"}]}],
+    return {"format": "grove view 1", "instance": "test",
+            "world": {"kind": "grid", "width": 4, "height": 3, "free": "12"},
+            "agents": [{"id": "a", "start": 0}], "tasks": [],
+            "plans": [{"name": "p", "claims": {}, "agents": [{"path": "@0;3E"}]}],
             **changes}
 
 
@@ -61,7 +64,8 @@ class Hostile(PageTest):
         roadmap = {"vertices": [{"id": name, "at": [i % 5 * 10, i // 5 * 10]} for i, name in enumerate(IDS)],
                    "edges": [{"from": a, "to": b, "steps": 3} for a, b in zip(IDS, IDS[1:])]}
         (self.folder / "r.roadmap.json").write_text(json.dumps(roadmap), encoding="utf-8")
-        self.open(self.page(self.instance({"roadmap": "r.roadmap.json", "tasks": [], "agents": [{"id": "a", "start": IDS[0]}]}),
+        self.open(self.page(self.instance({"roadmap": "r.roadmap.json", "tasks": [],
+                                           "agents": [{"id": "a", "start": IDS[0]}]}),
                             self.plan({"a": [[IDS[0]]]})))
         self.browser.key("n")
         self.browser.settle()
@@ -70,7 +74,8 @@ class Hostile(PageTest):
 
     def test_hostile_links_have_no_effect(self):
         page = self.page(DATA / "first.cts.json", self.solved("first"))
-        for fragment in ("#t=1e999", "#t=-7", "#t=NaN&agent=__proto__", f"#agent=<script>{RUN}</script>", "#%E0%A4%A", "#t=99999999999",
+        for fragment in ("#t=1e999", "#t=-7", "#t=NaN&agent=__proto__", f"#agent=<script>{RUN}</script>", "#%E0%A4%A",
+                         "#t=99999999999",
                          "#t=3&t=4&agent=red&agent=blue", "#task=" + "x" * 10_000):
             with self.subTest(fragment[:30]):
                 self.open(page, fragment)
@@ -118,15 +123,17 @@ class Hostile(PageTest):
         plan = data()["plans"][0]
         for message, corrupt in [
             ("the data is no JSON", ""), ("the data is no JSON", "{"), ("the data: expected an object", "[]"),
-            ("the data: expected an object", "null"), ("format: expected", without("format")), ("format: expected", data(format="grove view 2")),
+            ("the data: expected an object", "null"), ("format: expected", without("format")),
+            ("format: expected", data(format="grove view 2")),
             ("world: expected", without("world")), ("agents: expected a list", without("agents")),
             ("tasks: expected a list", without("tasks")), ("plans: expected a list", without("plans")),
-            ("the data: expected no 'more'", data(more=1)), ("agents[0].start: expected", data(agents=[{"id": "a", "start": 99}])),
+            ("the data: expected no 'more'", data(more=1)),
+            ("agents[0].start: expected", data(agents=[{"id": "a", "start": 99}])),
             ("agents[0].id: expected a text", data(agents=[{"id": {}, "start": 0}])),
             ("tasks[0].agents[0]", data(tasks=[{"id": "t", "place": 0, "agents": [7]}])),
             ("plans[0].agents: expected a list of 1", data(plans=[{**plan, "agents": []}])),
             ("plans[0].agents[0].path: a path leaves the world", data(plans=[{**plan, "agents": [{"path": "@0;9S"}]}])),
-            ("plans[0].agents[0].path: a path holds '<'", data(plans=[{**plan, "agents": [{"path": "<script>"}]}])),
+            ("plans[0].agents[0].path: a path contains '<'", data(plans=[{**plan, "agents": [{"path": "<script>"}]}])),
         ]:
             with self.subTest(message):
                 self.open(self.page_of(corrupt))
@@ -136,7 +143,8 @@ class Hostile(PageTest):
 
     def test_page_without_data_is_reported(self):
         page = self.page(DATA / "first.cts.json")
-        page.write_text(re.sub(r'<script type="application/json".*?</script>', "", page.read_text(encoding="utf-8"), flags=re.S),
+        page.write_text(re.sub(r'<script type="application/json".*?</script>', "", page.read_text(encoding="utf-8"),
+                               flags=re.S),
                         encoding="utf-8")
         self.open(page)
         self.assertEqual(self.text(".failure p"), "this page contains no data")

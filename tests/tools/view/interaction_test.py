@@ -135,7 +135,8 @@ class Interaction(PageTest):
                 self.jump(page, count)
                 self.assert_silent()
                 size = page.stat().st_size
-                print(f"{count:6} robots, {steps} steps on {side} x {side}: written in {written:.2f} s, {size / 1e6:.2f} MB, "
+                print(f"{count:6} robots, {steps} steps on {side} x {side}: written in {written:.2f} s, "
+                      f"{size / 1e6:.2f} MB, "
                       f"loaded in {loaded:.2f} s, {found['fps']:.0f} frames a second, the page's own code "
                       f"{found['median']:.1f} ms a frame ({found['p95']:.1f} in 95 %)", flush=True)
                 if count <= 1000:

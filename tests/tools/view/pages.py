@@ -62,13 +62,15 @@ class PageTest(unittest.TestCase):
         page = self.page(DATA / "first.cts.json")
         text = data if isinstance(data, str) else json.dumps(data).replace("<", "\\u003c")
         block = re.compile(r'(<script type="application/json" id="grove-data">).*?(</script>)', re.S)
-        page.write_text(block.sub(lambda m: m[1] + text + m[2], page.read_text(encoding="utf-8"), count=1), encoding="utf-8")
+        page.write_text(block.sub(lambda m: m[1] + text + m[2], page.read_text(encoding="utf-8"), count=1),
+                        encoding="utf-8")
         return page
 
     def grid(self, width, height, agents, tasks=(), rows=None):
         """Writes an instance on a map and returns its path. Without `rows` all cells are free."""
         rows = rows or ["." * width] * height
-        (self.folder / "m.map").write_text(f"type octile\nheight {height}\nwidth {width}\nmap\n" + "\n".join(rows) + "\n",
+        (self.folder / "m.map").write_text(f"type octile\nheight {height}\nwidth {width}\nmap\n" + "\n".join(rows)
+                                           + "\n",
                                            encoding="utf-8")
         return self.instance({"map": "m.map", "agents": agents, "tasks": list(tasks)})
 
@@ -88,7 +90,8 @@ class PageTest(unittest.TestCase):
             cost = max([rest(path), *(piece["end"] for piece in work)])
             agents.append({"id": agent, "path": path, "cost": cost, "work": work,
                            "sequence": of_agents.get("sequence", {}).get(agent, [])})
-        plan = {"status": "feasible", "cost": sum(a["cost"] for a in agents), "lower_bound": 0, "omega": 0, "agents": agents}
+        plan = {"status": "feasible", "cost": sum(a["cost"] for a in agents), "lower_bound": 0, "omega": 0,
+                "agents": agents}
         (self.folder / name).write_text(json.dumps(plan), encoding="utf-8")
         return self.folder / name
 
@@ -151,7 +154,8 @@ class PageTest(unittest.TestCase):
 
     def red(self, plan=0):
         """Returns the ids of the robots painted red as one string, for example "ab"."""
-        return "".join(sorted(agent for (agent, of), colour in self.colours().items() if colour == COLLISION and of == plan))
+        return "".join(sorted(agent
+                              for (agent, of), colour in self.colours().items() if colour == COLLISION and of == plan))
 
 
 def main(**settings):

@@ -5,6 +5,7 @@ import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
 import { kDark, kLight } from "../../../tools/view/page/colors";
 import palette from "../../../tools/view/palette.json";
+import { kMemory } from "../../../tools/view/run/model";
 
 declare const process: { env: Record<string, string> };
 const folder = process.env.GROVE_VIEW_SOURCES;
@@ -76,4 +77,11 @@ test("activities of robots are distinct without red or green", () => {
         assert.ok(distance > 0.12, `${colors.name} without ${lack}: ${colors.doing[i]} and ${colors.doing[j]}: ${distance}`);
       }));
     }
+});
+
+test("each kind of memory has a colour in chart and legend", () => {
+  const style = source("run/style.css");
+  for (const kind of kMemory)
+    for (const element of [".area.", ".entry i."])
+      assert.ok(style.includes(`${element}memory-${kind} {`), `${element}memory-${kind}`);
 });

@@ -10,7 +10,8 @@ import json
 
 from pages import MOVING, PageTest, main
 
-ROAD = {"vertices": [{"id": "A", "at": [0, 0]}, {"id": "B", "at": [4, 0]}, {"id": "C", "at": [4, 4]}, {"id": "D", "at": [0, 4]}],
+ROAD = {"vertices": [{"id": "A", "at": [0, 0]}, {"id": "B", "at": [4, 0]}, {"id": "C", "at": [4, 4]},
+                     {"id": "D", "at": [0, 4]}],
         "edges": [{"from": "A", "to": "B", "steps": 4}, {"from": "C", "to": "D", "steps": 3}]}
 
 
@@ -57,7 +58,8 @@ class Planted(PageTest):
     def test_vertex_collision(self):
         instance = self.grid_of({"id": "a", "start": [0, 1]}, {"id": "b", "start": [2, 0]})
         plan = self.with_c(a=cells((0, 1), (1, 1), (2, 1), (3, 1), (4, 1)), b=cells((2, 0), (2, 0), (2, 1), (2, 2)))
-        self.check(instance, plan, {0: "", 1: "", 1.4: "", 1.6: "ab", 2: "ab", 3: "", 4: ""}, (2, "a and b are both on [2, 1]"))
+        self.check(instance, plan, {0: "", 1: "", 1.4: "", 1.6: "ab", 2: "ab", 3: "", 4: ""},
+                   (2, "a and b are both on [2, 1]"))
 
     def test_edge_collision(self):
         instance = self.grid_of({"id": "a", "start": [1, 1]}, {"id": "b", "start": [4, 1]})
@@ -84,12 +86,14 @@ class Planted(PageTest):
     def test_turn_reverses(self):
         instance = self.grid_of(turning(3, 1, "E", turn_steps=2))
         path = [[3, 1, "E"], [3, 1, "E", "S", 1], [3, 1, "E"], [4, 1, "E"]]
-        self.check(instance, self.with_c(a=path), {0: "", 1: "", 1.5: "a", 2: "a", 3: ""}, (2, "a turns in a way that is not a step of a turn"))
+        self.check(instance, self.with_c(a=path), {0: "", 1: "", 1.5: "a", 2: "a", 3: ""},
+                   (2, "a turns in a way that is not a step of a turn"))
 
     def test_step_to_a_distant_cell(self):
         instance = self.grid_of({"id": "a", "start": [0, 1]})
         plan = self.with_c(a=cells((0, 1), (1, 1), (3, 1), (4, 1)))
-        self.check(instance, plan, {1: "", 1.5: "a", 2: "a", 3: ""}, (2, "a goes from [1, 1] to [3, 1], which is not a possible step"))
+        self.check(instance, plan, {1: "", 1.5: "a", 2: "a", 3: ""},
+                   (2, "a goes from [1, 1] to [3, 1], which is not a possible step"))
 
     def test_step_onto_a_blocked_cell(self):
         instance = self.grid(4, 2, [{"id": "a", "start": [0, 0]}], rows=["..@.", "...."])
@@ -99,7 +103,8 @@ class Planted(PageTest):
     def test_robot_moves_during_work(self):
         instance = self.grid(6, 4, [{"id": "a", "start": [0, 1], "goal": [4, 1]}, {"id": "c", "start": [0, 3]}],
                              [{"id": "t", "cell": [2, 1], "agents": ["a"], "duration": 3}])
-        plan = self.plan({"a": cells((0, 1), (1, 1), (2, 1), (2, 1), (2, 1), (3, 1), (3, 1), (4, 1)), "c": cells((0, 3))},
+        plan = self.plan({"a": cells((0, 1), (1, 1), (2, 1), (2, 1), (2, 1), (3, 1), (3, 1), (4, 1)),
+                          "c": cells((0, 3))},
                          work={"a": [{"task": "t", "begin": 2, "end": 5}]}, sequence={"a": ["t"]})
         self.check(instance, plan, {1: "", 3: "", 4: "", 5: "a", 6: ""}, (5, "a moves at work on t"))
 
@@ -111,7 +116,8 @@ class Planted(PageTest):
 
     def roads(self, a, b):
         (self.folder / "r.roadmap.json").write_text(json.dumps(ROAD), encoding="utf-8")
-        return self.instance({"roadmap": "r.roadmap.json", "agents": [{"id": "a", "start": a}, {"id": "b", "start": b}], "tasks": []})
+        return self.instance({"roadmap": "r.roadmap.json", "agents": [{"id": "a", "start": a}, {"id": "b", "start": b}],
+                              "tasks": []})
 
     def test_vertex_collision_on_a_road(self):
         plan = self.plan({"a": [["A"], ["A", "B", 1], ["A", "B", 2], ["A", "B", 1], ["A"]],
@@ -121,7 +127,8 @@ class Planted(PageTest):
     def test_edge_collision_on_a_road(self):
         plan = self.plan({"a": [["C"], ["C", "D", 1], ["C", "D", 2], ["D"]],
                           "b": [["D"], ["C", "D", 2], ["C", "D", 1], ["C"]]})
-        self.check(self.roads("C", "D"), plan, {0: "", 1: "", 1.5: "ab", 2: "ab", 3: ""}, (2, "a and b change places at C–D 1"))
+        self.check(self.roads("C", "D"), plan, {0: "", 1: "", 1.5: "ab", 2: "ab", 3: ""},
+                   (2, "a and b change places at C–D 1"))
 
     def test_only_the_invalid_of_two_plans_is_red(self):
         instance = self.grid_of({"id": "a", "start": [1, 1]}, {"id": "b", "start": [4, 2]})
@@ -140,20 +147,25 @@ class Planted(PageTest):
         return self.folder / "other.txt"
 
     def crossing(self):
-        return self.grid(6, 4, [{"id": "a", "start": [0, 1], "goal": [4, 1]}, {"id": "b", "start": [3, 1], "goal": [0, 1]}])
+        return self.grid(6, 4,
+                         [{"id": "a", "start": [0, 1], "goal": [4, 1]}, {"id": "b", "start": [3, 1], "goal": [0, 1]}])
 
     def test_fault_in_a_path_list_of_eecbs(self):
         plan = self.other("Agent 0: (1,0)->(1,1)->(1,2)->(1,3)->(1,4)->\nAgent 1: (1,3)->(1,2)->(1,1)->(1,0)->\n")
-        self.check(self.crossing(), plan, {0: "", 1: "", 1.5: "ab", 2: "ab", 3: ""}, (2, "a and b change places at [1, 1]"))
+        self.check(self.crossing(), plan, {0: "", 1: "", 1.5: "ab", 2: "ab", 3: ""},
+                   (2, "a and b change places at [1, 1]"))
 
     def test_fault_in_the_output_of_lacam3(self):
-        plan = self.other("agents=2\nmap_file=m.map\nsolver=planner\nsolved=1\nsoc=8\nsoc_lb=7\nmakespan=4\nmakespan_lb=4\n"
-                          "sum_of_loss=8\nsum_of_loss_lb=7\ncomp_time=1\nseed=0\n\nstarts=(0,1),(3,1),\ngoals=(4,1),(0,1),\n"
+        plan = self.other("agents=2\nmap_file=m.map\nsolver=planner\nsolved=1\nsoc=8\nsoc_lb=7\nmakespan=4\n"
+                          "makespan_lb=4\n"
+                          "sum_of_loss=8\nsum_of_loss_lb=7\ncomp_time=1\nseed=0\n\nstarts=(0,1),(3,1),\n"
+                          "goals=(4,1),(0,1),\n"
                           "solution=\n0:(0,1),(3,1),\n1:(1,1),(2,1),\n2:(2,1),(2,1),\n3:(3,1),(1,1),\n4:(4,1),(0,1),\n")
         self.check(self.crossing(), plan, {0: "", 1: "", 2: "ab", 3: "", 4: ""}, (2, "a and b are both on [2, 1]"))
 
     def test_fault_in_the_input_of_mapf_visualizer(self):
-        plan = self.other("solution=\n0:(0,1),(3,1),\n1:(1,1),(3,2),\n2:(2,1),(2,2),\n3:(2,2),(1,2),\n4:(4,1),(0,2),\n5:(4,1),(0,1),\n")
+        plan = self.other("solution=\n0:(0,1),(3,1),\n1:(1,1),(3,2),\n2:(2,1),(2,2),\n3:(2,2),(1,2),\n4:(4,1),(0,2),\n"
+                          "5:(4,1),(0,1),\n")
         self.check(self.crossing(), plan, {2: "", 3: "", 3.5: "a", 4: "a", 5: ""},
                    (4, "a goes from [2, 2] to [4, 1], which is not a possible step"))
 

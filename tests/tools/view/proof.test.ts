@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { ProofApp } from "../../../tools/view/proof/app";
 import { constraintsAt, readCertificate, usersOf } from "../../../tools/view/proof/certificate";
-import { constraintsShown, priceHeat } from "../../../tools/view/proof/marks";
+import { constraintsShown, multiplierHeat } from "../../../tools/view/proof/marks";
 import {
   closedText, constraintText, howText, lemmaText, noteText, planText, stepText, theoremText, whyText,
 } from "../../../tools/view/proof/words";
@@ -48,7 +48,7 @@ test("texts of theorem and plan state bound and gap", () => {
   assert.equal(planText(12, 12), "so it is optimal");
   assert.equal(planText(15, 12), "so it costs at most 25.00 % more than the best");
   assert.match(planText(11, 12), /one of the two is wrong/);
-  assert.match(planText(3, 0), /does not tell/);
+  assert.match(planText(3, 0), /gives no gap/);
 });
 
 test("each kind of constraint has a text", () => {
@@ -86,7 +86,7 @@ test("splits have their reasons", () => {
   assert.match(why("split 0 pass 1 2 3 4 | 1 pass 1 0 3 4"), /pass through one corridor in opposite directions/);
   assert.match(why("split 0 norest 3 7 | 0 rest 3 7"), /no other agent is on \[3, 0\] from 7 on/);
   assert.equal(why("split 0 stop 0 0 | 0 nostop 0 0"), "Each is the negation of the other.");
-  assert.match(why("later 0 4 1 4 0"), /together cost at most 8, and lemma 0 says that they cost more/);
+  assert.match(why("later 0 4 1 4 0"), /together cost at most 8, and by lemma 0 they cost more/);
   for (const none of ["0 bar 4 1 1 | 0 bar 4 1 1", "0 bar 4 1 1 | 1 rest 4 1", "0 norest 3 7 | 1 rest 3 7"])
     assert.equal(why(`split ${none}`), "", none);
   // The rules of docs/proof.md require the same places and times on both sides.
@@ -110,11 +110,11 @@ test("steps without a split have their reasons", () => {
   assert.match(closedText(kModel, none.lemmas[0], none.lemmas[0].root), /joint paths of a and c .*: there are none/);
 });
 
-test("prices are heat on their places", () => {
+test("multipliers are heat on their places", () => {
   const certificate = read("following yes", "theorem 7", "prices", "place 4 2 100", "edge 0 1 3 40", "place 4 3 60",
     "finish 0 4 1 5 9", "end");
-  assert.equal(howText(certificate), "proven by 4 prices of places, moves and finish times");
-  const heat = priceHeat(new ProofApp(kModel, certificate))!;
+  assert.equal(howText(certificate), "proven by 4 multipliers of places, moves and finish times");
+  const heat = multiplierHeat(new ProofApp(kModel, certificate))!;
   assert.deepEqual([heat[4], heat[0], heat[1], heat[2]], [1, 0.125, 0.125, 0]);
 });
 

@@ -17,7 +17,8 @@ LEMMAS = "lemma 9 0 1\ndemand 0 bar 1 2 inf\nsplit 0 bar 2 2 2 | 1 bar 2 2 2\nle
 
 class ProofPages(pages.PageTest):
     def run_grove(self, *words):
-        return subprocess.run([self.grove, *map(str, words)], cwd=self.folder, capture_output=True, text=True, check=True)
+        return subprocess.run([self.grove, *map(str, words)], cwd=self.folder, capture_output=True, text=True,
+                              check=True)
 
     def proof_page(self, instance, certificate, *words):
         self.run_grove("view", instance, "--proof", certificate, *words)
@@ -45,7 +46,8 @@ class ProofPages(pages.PageTest):
         return self.browser.evaluate(f"document.querySelector({json.dumps(selector)})?.innerText ?? ''")
 
     def corridor(self, name="a"):
-        return self.grid(4, 2, [{"id": name, "start": [0, 0], "goal": [3, 0]}, {"id": "b", "start": [3, 0], "goal": [0, 0]}],
+        return self.grid(4, 2,
+                         [{"id": name, "start": [0, 0], "goal": [3, 0]}, {"id": "b", "start": [3, 0], "goal": [0, 0]}],
                          [{"id": "t", "cell": [1, 1], "agents": [name]}])
 
     def chosen_row(self):
@@ -54,7 +56,8 @@ class ProofPages(pages.PageTest):
     def test_certificate_of_a_run_is_shown(self):
         cost = self.solved_page("rooms-32x32_n10_m30")
         self.assertRegex(self.text(".strip"), f"No plan costs less than {cost:,}\\s+"
-                         r"proven by \d+ splits, \d+ leaves and \d+ lemmas\s+" f"p.json costs {cost:,}, so it is optimal")
+                         r"proven by \d+ splits, \d+ leaves and \d+ lemmas\s+"
+                         f"p.json costs {cost:,}, so it is optimal")
         self.assertIn("grove-verify rooms-32x32_n10_m30.cts.json c.proof", self.text(".strip"))
         leaves = self.evaluate("grove.app.statement.steps.filter((s) => s.kind === 'leaf').length")
         self.assertIn(f"{leaves} leaves", self.text(".strip"))
@@ -111,7 +114,8 @@ class ProofPages(pages.PageTest):
                          ("ArrowLeft", "b is not on [1, 0] at 1")):
             self.browser.key(key)
             self.assertEqual(self.chosen_row(), row)
-        self.assertIn("Otherwise a and b together cost at most 7, and lemma 0 says that they cost more.", self.text(".details"))
+        self.assertIn("Otherwise a and b together cost at most 7, and by lemma 0 they cost more.",
+                      self.text(".details"))
         self.browser.key("ArrowLeft")
         self.assertEqual(len(self.texts(".tree .row")), 3)
         self.press("Fold all")
@@ -129,8 +133,9 @@ class ProofPages(pages.PageTest):
         self.press("lemma 0")
         self.assertIn("In plans that satisfy its constraints a and b together cost 9 or more.", self.text(".details"))
         self.assertIn("a is not on [1, 0] from 2 on", self.text(".details"))
-        self.assertEqual(self.texts(".tree .what"), ["All plans that satisfy its constraints", "a is not on [2, 0] at 2",
-                                                      "b is not on [2, 0] at 2"])
+        self.assertEqual(self.texts(".tree .what"),
+                         ["All plans that satisfy its constraints", "a is not on [2, 0] at 2",
+                           "b is not on [2, 0] at 2"])
         self.press("Back to the theorem")
         self.press("Lemmas (1)")
         self.assertEqual(self.evaluate("document.querySelector('.tree').checkVisibility()"), False)
@@ -146,7 +151,7 @@ class ProofPages(pages.PageTest):
         self.assertIn("all joint paths of a and b that satisfy the constraints: there are none", self.text(".details"))
         self.browser.open(self.proof_page(instance, self.written(
             instance, "theorem 6\nprices\nplace 1 1 500\nedge 1 2 2 100\nfinish 0 3 1 3 7\nend\n")))
-        self.assertIn("proven by 3 prices", self.text(".strip"))
+        self.assertIn("proven by 3 multipliers", self.text(".strip"))
         self.assert_silent()
 
     def test_invalid_split_is_reported(self):

@@ -114,9 +114,11 @@ class Pages(unittest.TestCase):
 
     def test_large_log_is_shown(self):
         ranks = {"nodes": list(range(1000)), "open": [1] * 1000, "lower_bound": [30, None] * 500,
-                 "memory_mb": [25.5] * 999 + [None], "low_level_calls": [7] * 1000, "branching_cost_queries": [8] * 1000}
+                 "memory_mb": [25.5] * 999 + [None], "low_level_calls": [7] * 1000,
+                 "branching_cost_queries": [8] * 1000}
         counts = {"event": "counts", "time_s": 99999, "counts": {"splits_vertex_edge": 5, "splits_target": 1},
-                  "memory_mb": {"process": 100, "nodes": 20, "subproblems": 10, "mdds": 5, "dependencies": 1}, "ranks": ranks}
+                  "memory_mb": {"process": 100, "nodes": 20, "subproblems": 10, "mdds": 5, "dependencies": 1},
+                  "ranks": ranks}
         seconds = self.show(lines(HEADER, *(row(t) for t in range(100_000)), counts))
         print(f"100,000 rows, 1,000 ranks: loaded in {seconds:.2f} s")
         self.assertIn("1,000 ranks", self.text("table caption"))
@@ -126,7 +128,8 @@ class Pages(unittest.TestCase):
         self.assertIn("The ranks hold the nodes", self.text("main"))
 
     def test_hostile_logs_run_no_script(self):
-        hostile = {"event": "node", "time_s": 1, "node": 0, "worker": 0, "outcome": "split", "conflict": ALERT, "split": ALERT,
+        hostile = {"event": "node", "time_s": 1, "node": 0, "worker": 0, "outcome": "split", "conflict": ALERT,
+                   "split": ALERT,
                    "children": [{"node": 1, "bound": 3, "cost": 3, "constraint": ALERT}]}
         root = {"event": "root", "time_s": 0, "node": 0, "tree": 0, "bound": 1e300, "cost": -7}
         self.show(lines(HEADER | {"instance": ALERT, "options": "</script>" + ALERT}, root, hostile,
@@ -181,7 +184,8 @@ class Pages(unittest.TestCase):
         for host, path, expected in (("127.0.0.1", f"/{token}/", 200), ("localhost", f"/{token}/log?from=0", 200),
                                      ("127.0.0.1", f"/{token}/log?from=x", 200), ("evil.example", f"/{token}/", 403),
                                      ("127.0.0.1", "/", 404), ("127.0.0.1", "/log?from=0", 404),
-                                     ("127.0.0.1", f"/{token[:-1]}/log?from=0", 404), ("127.0.0.1", "/etc/passwd", 404)):
+                                     ("127.0.0.1", f"/{token[:-1]}/log?from=0", 404),
+                                     ("127.0.0.1", "/etc/passwd", 404)):
             request = urllib.request.Request(f"http://127.0.0.1:{port}{path}", headers={"Host": f"{host}:{port}"})
             try:
                 with urllib.request.urlopen(request) as answer:

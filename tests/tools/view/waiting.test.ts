@@ -17,7 +17,7 @@ function shown(agents: AgentData[], plan: object[]): App {
 function waits(app: App): string[] {
   const name = (agent: number) => app.model.agents[agent].id;
   return app.viewed[0].waits.all.map((wait) =>
-    `${name(wait.agent)} ${wait.begin}-${wait.end} for ${wait.for.map(name).join(", ") || "no robot"}`);
+    `${name(wait.agent)} ${wait.begin}-${wait.end} for ${wait.met.map(name).join(", ") || "no robot"}`);
 }
 
 const kA: AgentData = { id: "a", start: 0 };
@@ -51,8 +51,8 @@ test("several causes are listed in order of time", () => {
   const app = shown([{ id: "a", start: 1 }, { id: "b", start: 3 }, { id: "c", start: 7 }],
     [{ path: "@1;2.E" }, { path: "@3;W2S" }, { path: "@7;NWS" }]);
   const [wait] = app.viewed[0].waits.byAgent[0];
-  assert.deepEqual(wait.for, [1, 2]);
-  assert.equal(wait.meets, 2);
+  assert.deepEqual(wait.met, [1, 2]);
+  assert.equal(wait.firstMeetingPlace, 2);
 });
 
 test("long waits are events with their causes", () => {

@@ -11,7 +11,7 @@ BAD_INPUT = 2
 FAILURE = 1
 
 
-def complain(message):
+def print_error(message):
     print("grove: error: " + message.replace("\n", "\\n"), file=sys.stderr)
 
 
@@ -20,7 +20,7 @@ def exit_code(run, arguments):
     try:
         return run(arguments)
     except BadInput as error:
-        complain(str(error))
+        print_error(str(error))
         return BAD_INPUT
     except KeyboardInterrupt:
         return 128 + signal.SIGINT
@@ -30,7 +30,7 @@ def exit_code(run, arguments):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # so that Python's flush at exit does not fail
         return FAILURE
     except OSError as error:
-        complain(f"{error.filename or 'the drive'}: {error.strerror or error}")
+        print_error(f"{error.filename or 'the drive'}: {error.strerror or error}")
         return FAILURE
     except SystemExit:  # raised by --help
         return 0

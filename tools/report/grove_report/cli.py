@@ -187,11 +187,11 @@ def _write_submission(a, results):
     found = submission([row for row in results.rows if not method or row.method == method],
                        best_costs(results.rows))
     if not found.rows:
-        reasons = "; ".join(f"{number} {why}" for why, number in found.left_out.items())
+        reasons = "; ".join(f"{number} {why}" for why, number in found.omitted.items())
         raise BadInput(f"--tracker: no row to submit: {reasons or 'no rows'}")
     _write_whole(Path(a.tracker), found.text)
     print(printable(f"wrote {a.tracker}: {found.rows} rows of {method_name(method)} for MAPF Tracker"))
-    for why, number in found.left_out.items():
+    for why, number in found.omitted.items():
         print(printable(f"left out: {number} {why}"))
 
 

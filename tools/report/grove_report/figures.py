@@ -172,17 +172,18 @@ def _set_x(ax, x_values, name):
         ax.set_xlabel(name)
 
 
-def plot_metric(ax, cells, x_of, lines, metric, looks, offsets):
-    """Plots one panel. `cells`: {cell: {line: Measures}}; a line has a gap at a cell without Measures for it."""
+def plot_metric(ax, configurations, x_of, lines, metric, looks, offsets):
+    """Plots one panel. `configurations`: {configuration: {line: Measures}}; a line has a gap at a configuration
+    without Measures for it."""
     drawn = False
     for rank, line in enumerate(lines):
-        points = [(x_of(cell) + offsets[line], metric.value(found[line]) if line in found else None)
-                  for cell, found in sorted(cells.items(), key=lambda item: x_of(item[0]))]
+        points = [(x_of(configuration) + offsets[line], metric.value(found[line]) if line in found else None)
+                  for configuration, found in sorted(configurations.items(), key=lambda item: x_of(item[0]))]
         drawn |= any(y is not None for _, y in points)
         ax.plot([x for x, _ in points], [math.nan if y is None else y for _, y in points],
                 **plot_arguments(looks.style(line), depth(rank, len(lines))))
     if not drawn:
-        ax.text(0.5, 0.5, "no data" if cells else "no runs", transform=ax.transAxes, ha="center",
+        ax.text(0.5, 0.5, "no data" if configurations else "no runs", transform=ax.transAxes, ha="center",
                 va="center", color=FAINT)
 
 
@@ -216,8 +217,8 @@ def add_legend(figure, lines, looks, nested):
                   columnspacing=1.6 if is_wide else 0.9, handletextpad=0.8 if is_wide else 0.5, borderaxespad=0.2)
 
 
-def _values(cells, lines, metric):
-    values = [metric.value(found[line]) for found in cells.values() for line in lines
+def _values(configurations, lines, metric):
+    values = [metric.value(found[line]) for found in configurations.values() for line in lines
               if line in found]
     return [value for value in values if value is not None]
 
@@ -225,35 +226,37 @@ def _values(cells, lines, metric):
 class Columns(NamedTuple):
     """Columns and x axis of a comparison."""
     keys: list        # keys of the columns, ordered by map; key[0] is the map
-    key_of: object    # function: cell -> key
-    x_of: object      # function: cell -> x
+    key_of: object    # function: configuration -> key
+    x_of: object      # function: configuration -> x
     x_name: str
     title_of: object  # function: key -> title of the column
 
 
-def columns_of(cells):
+def columns_of(configurations):
     """Returns the Columns: one per map and N with M on the x axis, as in the paper.
 
     If M does not vary, returns one per map and M with N on the x axis.
     """
-    if len({cell.tasks for cell in cells}) > 1:
-        keys = sorted({(cell.map, cell.agents) for cell in cells})
-        return Columns(keys, lambda cell: (cell.map, cell.agents), lambda cell: cell.tasks,
+    if len({configuration.tasks for configuration in configurations}) > 1:
+        keys = sorted({(configuration.map, configuration.agents) for configuration in configurations})
+        return Columns(keys, lambda each: (each.map, each.agents), lambda each: each.tasks,
                        "M (tasks)", lambda key: f"N = {key[1]}")
-    keys = sorted({(cell.map, cell.tasks) for cell in cells})
-    return Columns(keys, lambda cell: (cell.map, cell.tasks), lambda cell: cell.agents,
+    keys = sorted({(configuration.map, configuration.tasks) for configuration in configurations})
+    return Columns(keys, lambda each: (each.map, each.tasks), lambda each: each.agents,
                    "N (agents)", lambda key: f"M = {key[1]}" if key[1] else "")
 
 
-def comparison(cells, all_cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR, COMMON_SQR, COST_RATIO)):
+def comparison(configurations, all_configurations, lines, looks,
+               metrics=(SUCCESS, RUNTIME, SQR, COMMON_SQR, COST_RATIO)):
     """Plots one row of panels per metric: those of the paper's Fig. 5, then SQR on common instances and the cost ratio.
 
-    cells: {cell: {line: Measures}}, a subset of all_cells; all_cells determines the ranges of the axes.
+    configurations: {configuration: {line: Measures}}, a subset of all_configurations, which determines the ranges of
+    the axes.
     """
     with matplotlib.rc_context(SETTINGS):
-        columns = columns_of(all_cells)
-        keys = sorted(set(map(columns.key_of, cells)))
-        metrics = [metric for metric in metrics if _values(all_cells, lines, metric)]
+        columns = columns_of(all_configurations)
+        keys = sorted(set(map(columns.key_of, configurations)))
+        metrics = [metric for metric in metrics if _values(all_configurations, lines, metric)]
         notes = [text for metric, text in ((SQR, SQR_CAPTION), (COST_RATIO, RATIO_CAPTION))
                  if metric in metrics]
         caption = wrapped(notes)
@@ -268,8 +271,9 @@ def comparison(cells, all_cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR, C
                                             "wspace": 0.1, "hspace": 0.14})
         limits = sorted({line.time_limit_s for line in lines})
         for column, key in enumerate(keys):
-            here = {cell: found for cell, found in cells.items() if columns.key_of(cell) == key}
-            x_values = sorted({columns.x_of(cell) for cell in here})
+            here = {configuration: found for configuration, found in configurations.items()
+                    if columns.key_of(configuration) == key}
+            x_values = sorted({columns.x_of(configuration) for configuration in here})
             offsets = dodged(x_values, lines)
             for row, metric in enumerate(metrics):
                 ax = axes[row][column]
@@ -277,7 +281,7 @@ def comparison(cells, all_cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR, C
                 if metric.axis == "seconds":
                     _show_limits(ax, limits, named=column == 0)
                 if column == 0:
-                    _set_axis(ax, metric, _values(all_cells, lines, metric), limits)
+                    _set_axis(ax, metric, _values(all_configurations, lines, metric), limits)
                     ax.set_ylabel(metric.label)
                 else:
                     ax.tick_params(axis="y", length=0)
@@ -389,10 +393,11 @@ def _omega_labels(family, lines, looks):
     return longer
 
 
-def omega_study(cells, family, lines, looks, setting):
+def omega_study(configurations, family, lines, looks, setting):
     """Plots the influence of omega like the paper's Fig. 6.
 
-    Panel (a) has the legend and the setting, panel (g) SQR on common instances. cells: the cells of one map and N.
+    Panel (a) has the legend and the setting, panel (g) SQR on common instances. configurations: those of one map
+    and N.
     lines: the lines of the family, then others. setting: lines of text.
     """
     with matplotlib.rc_context(SETTINGS):
@@ -410,14 +415,14 @@ def omega_study(cells, family, lines, looks, setting):
         figure.legend(handles=_handles(lines, labels, looks, nested=True), frameon=False, handlelength=2.6,
                       loc="upper left", bbox_to_anchor=(0.52, 1 - 0.08 / height), borderaxespad=0, borderpad=0)
         limits = sorted({line.time_limit_s for line in lines})
-        x_values = sorted({cell.tasks for cell in cells})
+        x_values = sorted({configuration.tasks for configuration in configurations})
         offsets = dodged(x_values, lines)
         panels = zip("bcdefg", axes.flat, (SUCCESS, RUNTIME, SQR, COMMON_SQR, ROOTS, RTSP_CALLS))
         for letter, ax, metric in panels:
-            plot_metric(ax, cells, lambda cell: cell.tasks, lines, metric, looks, offsets)
+            plot_metric(ax, configurations, lambda configuration: configuration.tasks, lines, metric, looks, offsets)
             if metric.axis == "seconds":
                 _show_limits(ax, limits, named=True)
-            _set_axis(ax, metric, _values(cells, lines, metric), limits)
+            _set_axis(ax, metric, _values(configurations, lines, metric), limits)
             _set_x(ax, x_values, "M (tasks)")
             ax.set_title(f"({letter}) {metric.label}".replace("\n", " "), loc="left", fontweight="bold")
         pin_labels(axes, 0.4)

@@ -60,7 +60,7 @@ def best_bounds(rows, known=()):
     """Returns {(problem, instance): highest proven lower bound}, without bounds that other solvers merely claim."""
     best = dict(known)
     for row in rows:
-        if row.lower_bound is not None and row.status not in ("error", "infeasible") and row.bounds_every_plan:
+        if row.lower_bound is not None and row.status not in ("error", "infeasible") and row.bound_holds_for_all_plans:
             key = row.problem, row.instance
             best[key] = max(best.get(key, 0), row.lower_bound)
     return best
@@ -161,16 +161,19 @@ def measures(rows, best, common=frozenset()):
         mean_rtsp_calls=_mean(over_seeds(rows, lambda row: row.rtsp_calls)))
 
 
-class Cell(NamedTuple):
+class Configuration(NamedTuple):
     map: str
     agents: int
     tasks: int
 
 
-def by_cell(rows, best):
-    """Returns {cell: {line: Measures}} for the lines that have rows in the cell. `best`: see measures()."""
-    groups = grouped(rows, lambda row: Cell(row.map, row.agents, row.tasks))
-    return {cell: measures_by_line(group, best) for cell, group in sorted(groups.items())}
+def by_configuration(rows, best):
+    """Returns {configuration: {line: Measures}} for the lines with rows of the configuration.
+
+    best: see measures().
+    """
+    groups = grouped(rows, lambda row: Configuration(row.map, row.agents, row.tasks))
+    return {configuration: measures_by_line(group, best) for configuration, group in sorted(groups.items())}
 
 
 def measures_by_line(rows, best):

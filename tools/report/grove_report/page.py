@@ -40,7 +40,8 @@ GLOSSARY = [
     ("Seeds", "Runs that differ only in the seed are repetitions of one instance: means are taken over these first, "
      "then over instances. Success rate of an instance: the share of its runs that are solved."),
     ("Claimed, invalid", "Of other solvers. Claimed: a run that reported a cost without a plan. Invalid: a run in "
-     "whose plan agents collide, jump or do not arrive. Neither counts as solved, and its cost does not count as known."),
+     "whose plan agents collide, jump or do not arrive. Neither counts as solved, and its cost does not count as "
+     "known."),
     ("Anytime", "A method that improves its plan until its time limit. Reaching the limit is not a failure: a run with "
      "a plan counts as solved, and its runtime is the time to its first plan."),
     ("SQR, solution quality ratio", "Root cost / cost of the plan, of solved runs. The root cost is the "
@@ -49,9 +50,9 @@ GLOSSARY = [
      "solves only easy instances looks better than one that also solves hard ones, whose SQR is lower for all "
      "methods."),
     ("Common instances", "Instances that all methods solve with every seed, not counting methods that solve no "
-     "instance of the cell (map, N, M) or table. On these, costs, times and the mean SQR of methods are comparable. "
-     "The weakest method determines the common instances, and they are the easy ones; --method excludes methods. For "
-     "quality over time: instances for which all methods end with a plan."),
+     "instance of the configuration (map, N, M) or table. On these, costs, times and the mean SQR of methods are "
+     "comparable. The weakest method determines the common instances, and they are the easy ones; --method excludes "
+     "methods. For quality over time: instances for which all methods end with a plan."),
     ("Cost ratio", "Cost of the plan / best known cost, of solved runs. The best known cost is the least cost of "
      "any row for the instance, including runs that ended at a limit, and of MAPF Tracker if it was read. 1 is best; "
      "1.05 costs 5 % more. Unlike SQR it does not get worse because an instance is hard, so methods are comparable "
@@ -84,7 +85,8 @@ def _file(report, before, name):
 
 def _figure(figure, caption="", kind=""):
     """Returns the HTML of a figure. `kind`: "column" for figures as wide as a column of a paper, otherwise ""."""
-    return (f'<figure class="{kind}"><img alt="{_text(figure.title)}" src="{_data("image/svg+xml", figure.svg.encode("utf-8"))}">'
+    return (f'<figure class="{kind}"><img alt="{_text(figure.title)}" '
+            f'src="{_data("image/svg+xml", figure.svg.encode("utf-8"))}">'
             f"<figcaption><b>{_text(figure.title)}.</b> {_text(caption)}</figcaption></figure>")
 
 
@@ -242,10 +244,10 @@ def _summary(problem, lines):
 def _matrix(problem, lines, value, show, better):
     """Returns a table with a row for each map, N and M and a column for each line. The best value in a row is bold."""
     rows = []
-    for cell, found in problem.cells.items():
+    for configuration, found in problem.configurations.items():
         values = {line: value(measured) for line, measured in found.items()}
         best = _best(values.values(), better) if better and len(set(values.values())) > 1 else None
-        row = [word(cell.map), Entry(str(cell.agents)), Entry(str(cell.tasks))]
+        row = [word(configuration.map), Entry(str(configuration.agents)), Entry(str(configuration.tasks))]
         for line in problem.lines:
             if line not in found:
                 row.append(NOTHING)
@@ -257,22 +259,24 @@ def _matrix(problem, lines, value, show, better):
     return html_table(header, rows)
 
 
-def _cells(problem, lines):
-    """Returns a table with a row for each cell and line."""
-    rows = [[word(cell.map), Entry(str(cell.agents)), Entry(str(cell.tasks)), word(lines.label(line)),
+def _configurations(problem, lines):
+    """Returns a table with a row for each configuration and line."""
+    rows = [[word(configuration.map), Entry(str(configuration.agents)), Entry(str(configuration.tasks)),
+             word(lines.label(line)),
              Entry(str(found[line].runs)), Entry(str(found[line].solved)), _within(line, found[line]),
              Entry(percent(found[line].success)), Entry(seconds(found[line].median_runtime_s)),
              Entry(ratio(found[line].mean_sqr)), _common(found[line]),
              Entry(ratio(found[line].mean_cost_ratio))]
-            for cell, found in problem.cells.items() for line in problem.lines if line in found]
+            for configuration, found in problem.configurations.items() for line in problem.lines if line in found]
     return html_table(["map", "N", "M", "method", "runs", "solved", WITHIN, "success rate", MEDIAN, SQR,
                        COMMON_SQR, COST_RATIO], rows)
 
 
 def _common_table(problem, lines):
-    """Returns a table with a row for each line over all cells, and for each cell and line with common instances."""
-    places = [(("all", "", ""), problem.by_line)] if len(problem.cells) > 1 else []
-    places += [(cell, found) for cell, found in problem.cells.items()]
+    """Returns a table with a row for each line over all configurations, and for each configuration and line with common
+    instances."""
+    places = [(("all", "", ""), problem.by_line)] if len(problem.configurations) > 1 else []
+    places += [(configuration, found) for configuration, found in problem.configurations.items()]
     rows = [[word(place[0]), Entry(str(place[1])), Entry(str(place[2])), Entry(str(found[line].common)),
              word(lines.label(line)), Entry(cost_text(found[line].common_mean_cost)),
              Entry(cost_text(found[line].common_median_cost)), Entry(ratio(found[line].common_cost_ratio)),
@@ -326,7 +330,7 @@ def _over_time(report, problem):
 def _success(report, problem):
     if not problem.success:
         return []
-    pooled = len({cell.tasks for cell in problem.cells}) > 1
+    pooled = len({configuration.tasks for configuration in problem.configurations}) > 1
     return [_figure(problem.success, "Share of the runs that are solved"
                     + (", whatever the number of tasks." if pooled else ".")
                     + " Below the name of a map: number of instances and seeds of each point.", "column"),
@@ -390,7 +394,7 @@ def _speedup_table(problem, lines):
 def _only(problem, lines):
     if not problem.only:
         return _paragraph("Every solved instance is solved by several methods.")
-    maps = sorted({cell.map for cell in problem.cells})
+    maps = sorted({configuration.map for configuration in problem.configurations})
     rows = [[word(lines.label(line)), Entry(str(len(problem.only[line]))),
              *(Entry(str(sum(row.map == name for row in problem.only[line]))) for name in maps)]
             for line in problem.lines if line in problem.only]
@@ -442,7 +446,8 @@ def _problem(report, problem):
                         "better; cost ratio: 1 is best. Where lines coincide, the lower ones are broader "
                         "and have larger markers. Figures saved from this page are SVG files."),
              '<div class="figures">', *(_figure(figure) for figure in problem.comparison), "</div>"]
-    parts += ["<details><summary>Table: every cell (map, N, M) and method</summary>", _cells(problem, lines),
+    parts += ["<details><summary>Table: every configuration (map, N, M) and method</summary>",
+              _configurations(problem, lines),
               "</details>"]
     for title, value, show, better in (
             ("Success rate", lambda found: found.success, percent, max),
@@ -468,8 +473,8 @@ def _problem(report, problem):
 
 def _study_table(study, lines):
     rows = []
-    for cell, found in study.cells.items():
-        rows += [[word(cell.map), Entry(str(cell.agents)), Entry(str(cell.tasks)),
+    for configuration, found in study.configurations.items():
+        rows += [[word(configuration.map), Entry(str(configuration.agents)), Entry(str(configuration.tasks)),
                   word(omega_text(line.omega) if line in study.family.lines else lines.label(line), lines.label(line)),
                   Entry(str(found[line].runs)),
                   Entry(str(found[line].solved)), _within(line, found[line]),
@@ -526,8 +531,9 @@ def _best_known(report):
                          *(Entry(str(sum(getattr(each, name) for each in group)))
                            for name in ("better_plan", "higher_bound", "closes"))])
     better = [each for each in known.found if each.better_plan or each.higher_bound or each.closes]
-    parts = [*head, html_table(["method", "instances", "with a plan", "mean cost / best known", "as good", "better plans",
-                                "higher bounds", "closed"], rows),
+    parts = [*head,
+             html_table(["method", "instances", "with a plan", "mean cost / best known", "as good", "better plans",
+                         "higher bounds", "closed"], rows),
              _file(report, "Every instance as a file", "best_known.csv")]
     if better:
         parts += ["<h3>Improvements on the best known values</h3>", html_table(

@@ -25,7 +25,7 @@ def _said(rows, value):
 
 
 def _of_instance(everything):
-    rows = [row for row in everything if row.bounds_every_plan]
+    rows = [row for row in everything if row.bound_holds_for_all_plans]
     optimal = [row for row in rows if row.status == "optimal" and row.cost is not None]
     if len({row.cost for row in optimal}) > 1:
         yield "optimal costs differ: " + _said(optimal, lambda row: row.cost)
@@ -76,7 +76,7 @@ def _checked(rows, plan, bound):
     def who(found):
         return ", ".join(sorted({method_name(row.method) for row in found})) or "MAPF Tracker"
     return _Checked(plan, bound, who(row for row in rows if has_plan(row) and row.cost == plan),
-                    who(row for row in rows if row.lower_bound == bound and row.bounds_every_plan))
+                    who(row for row in rows if row.lower_bound == bound and row.bound_holds_for_all_plans))
 
 
 def _false_claims_of(row, checked):
@@ -118,7 +118,7 @@ def _against(rows, known):
         cheaper = [row for row in plans if row.cost < known.bound]
         yield f"MAPF Tracker has a lower bound of {known.bound}; a plan costs " + _said(cheaper, lambda row: row.cost)
     above = [row for row in rows if row.lower_bound is not None and known.cost is not None
-             and row.lower_bound > known.cost and row.status != "infeasible" and row.bounds_every_plan]
+             and row.lower_bound > known.cost and row.status != "infeasible" and row.bound_holds_for_all_plans]
     if above:
         yield (f"MAPF Tracker has a plan of cost {known.cost}, below a proven lower bound: "
                + _said(above, lambda row: row.lower_bound))
@@ -132,7 +132,8 @@ def contradictions(rows, known=None):
     """
     groups = grouped((row for row in rows if row.status != "error"), lambda row: (row.problem, row.instance))
     return [Contradiction(*key, what) for key, group in sorted(groups.items())
-            for what in itertools.chain(_of_instance(group), _against(group, known[key]) if key in (known or {}) else ())]
+            for what in itertools.chain(_of_instance(group),
+                                        _against(group, known[key]) if key in (known or {}) else ())]
 
 
 def optimal_agreements(rows):

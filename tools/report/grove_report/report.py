@@ -39,7 +39,7 @@ class Problem(NamedTuple):
     lines: list
     rows: list
     by_line: dict       # {line: Measures}
-    cells: dict         # {cell: {line: Measures}}
+    configurations: dict  # {configuration: {line: Measures}}
     instances: int
     only: dict          # {line: [row]}: only_solver()
     beyond: dict        # {line: number}: beyond_baselines()
@@ -61,7 +61,7 @@ class Study(NamedTuple):
     lines: list         # lines of the family, then of Grove's own search for comparison
     map: str            # map of the figure
     agents: int         # number of agents in the figure
-    cells: dict         # {cell: {line: Measures}} for all maps and numbers of agents
+    configurations: dict  # {configuration: {line: Measures}} for all maps and numbers of agents
     figure: Figure
 
 
@@ -127,9 +127,10 @@ class Output:
                 path.unlink()
 
 
-def _parts(cells):
-    """Divides the cells into groups whose columns fit side by side. Does not divide a map that fits into one group."""
-    columns = figures.columns_of(cells)
+def _parts(configurations):
+    """Divides the configurations into groups whose columns fit side by side. Does not divide a map that fits into one
+    group."""
+    columns = figures.columns_of(configurations)
     parts = [[]]
     for _, group in itertools.groupby(columns.keys, key=lambda key: key[0]):
         keys = list(group)
@@ -137,17 +138,18 @@ def _parts(cells):
             if len(parts[-1]) + len(chunk) > WIDEST:
                 parts.append([])
             parts[-1] += chunk
-    return [{cell: found for cell, found in cells.items() if columns.key_of(cell) in keys}
+    return [{configuration: found for configuration, found in configurations.items()
+             if columns.key_of(configuration) in keys}
             for keys in parts if keys]
 
 
-def _comparison_figures(output, problem, cells, lines, looks):
-    parts = _parts(cells)
+def _comparison_figures(output, problem, configurations, lines, looks):
+    parts = _parts(configurations)
     for number, part in enumerate(parts, 1):
         stem = f"comparison_{problem}" + (f"_{number}" if len(parts) > 1 else "")
-        maps = ", ".join(sorted({cell.map for cell in part}))
+        maps = ", ".join(sorted({configuration.map for configuration in part}))
         yield output.figure(stem, f"Success rate, mean runtime and quality on {maps}",
-                            figures.comparison(part, cells, lines, looks))
+                            figures.comparison(part, configurations, lines, looks))
 
 
 def _cactus_figure(output, problem, runs, lines, looks):
@@ -215,15 +217,15 @@ MEASURE_COLUMNS = ["success_rate" if name == "success" else name for name in met
 def _problem(output, name, rows, best, bounds, lines, looks):
     here = metrics.by_line(rows)
     ordered = [line for line in lines.all if line in here]
-    cells = metrics.by_cell(rows, best)
+    configurations = metrics.by_configuration(rows, best)
     runs = metrics.median_runs(rows)
     counters = counters_by_line(rows)
     panels = anytime.panels(rows, best, bounds)
     problem = Problem(
-        name, ordered, rows, metrics.measures_by_line(rows, best), cells,
+        name, ordered, rows, metrics.measures_by_line(rows, best), configurations,
         len(runs), metrics.only_solver(runs), metrics.beyond_baselines(runs, lines.is_baseline),
         speedups(runs, lines.is_baseline), len(hard_instances(runs, lines.is_baseline)),
-        list(_comparison_figures(output, name, cells, ordered, looks)),
+        list(_comparison_figures(output, name, configurations, ordered, looks)),
         _cactus_figure(output, name, runs, ordered, looks),
         _success_figure(output, name, rows, best, ordered, looks),
         _anytime_figure(output, name, panels, ordered, looks), panels,
@@ -242,11 +244,11 @@ def _write_tables(output, problem, lines):
                   for line in ordered])
     output.table(f"comparison_{name}",
                  ["map", "agents", "tasks", *LINE_COLUMNS, *MEASURE_COLUMNS],
-                 [[*cell, *line, *found[line]] for cell, found in problem.cells.items()
+                 [[*configuration, *line, *found[line]] for configuration, found in problem.configurations.items()
                   for line in ordered if line in found])
     output.table(f"common_{name}", ["map", "agents", "tasks", *LINE_COLUMNS, *COMMON_COLUMNS],
-                 [[*cell, *line, *(getattr(found[line], column) for column in COMMON_COLUMNS)]
-                  for cell, found in problem.cells.items() for line in ordered
+                 [[*configuration, *line, *(getattr(found[line], column) for column in COMMON_COLUMNS)]
+                  for configuration, found in problem.configurations.items() for line in ordered
                   if line in found and found[line].common_mean_cost is not None])
     output.table(f"speedup_{name}",
                  ["map", "baseline", "baseline_omega", "method", "omega", "time_limit_s",
@@ -265,11 +267,11 @@ def _write_tables(output, problem, lines):
                       for line, found in problem.counters.items()])
 
 
-def _shown_cell(cells, wanted_map, wanted_agents):
+def _shown_configuration(configurations, wanted_map, wanted_agents):
     """Returns map and N for the figure of a study, by default the paper's room map and N = 5 if the data has them."""
-    maps = sorted({cell.map for cell in cells})
+    maps = sorted({configuration.map for configuration in configurations})
     name = wanted_map or next((name for name in maps if name.startswith("room")), maps[0])
-    sizes = sorted({cell.agents for cell in cells if cell.map == name})
+    sizes = sorted({configuration.agents for configuration in configurations if configuration.map == name})
     if wanted_agents is not None:
         return name, wanted_agents
     return name, 5 if 5 in sizes else sizes[0] if sizes else None
@@ -314,10 +316,10 @@ def _study(output, problem, family, rows, best, looks, options, stem):
     lines = [*family.lines, *_beside(family, rows)]
     places = {(row.map, row.agents, row.tasks) for row in rows if line_of(row) in family.lines}
     rows = [row for row in rows if line_of(row) in lines and (row.map, row.agents, row.tasks) in places]
-    cells = metrics.by_cell(rows, best)
-    map_name, agents = _shown_cell(cells, options.study_map, options.study_agents)
-    shown = {cell: found for cell, found in cells.items()
-             if (cell.map, cell.agents) == (map_name, agents)}
+    configurations = metrics.by_configuration(rows, best)
+    map_name, agents = _shown_configuration(configurations, options.study_map, options.study_agents)
+    shown = {configuration: found for configuration, found in configurations.items()
+             if (configuration.map, configuration.agents) == (map_name, agents)}
     if not shown:
         return None
     setting = _setting(problem, family, map_name, agents,
@@ -325,9 +327,9 @@ def _study(output, problem, family, rows, best, looks, options, stem):
     figure = output.figure(stem, f"The influence of ω: {family.name}",
                            figures.omega_study(shown, family.lines, lines, looks, setting))
     output.table(stem, ["map", "agents", "tasks", *LINE_COLUMNS, *MEASURE_COLUMNS],
-                 [[*cell, *line, *found[line]] for cell, found in cells.items()
+                 [[*configuration, *line, *found[line]] for configuration, found in configurations.items()
                   for line in lines if line in found])
-    return Study(problem, family, lines, map_name, agents, cells, figure)
+    return Study(problem, family, lines, map_name, agents, configurations, figure)
 
 
 def _errors(rows, lines):
@@ -352,7 +354,8 @@ def _omegas(problem, lines):
 def _guarantee(line, solved, lines):
     """Yields notes on solved rows of a line that do not prove the tolerance omega, or have no guarantee."""
     outside = [row for row in solved if metrics.within_omega(row) is False]
-    unproven = [row for row in solved if not row.solver and line.omega in metrics.NO_PROMISE and row.status != "optimal"]
+    unproven = [row
+                for row in solved if not row.solver and line.omega in metrics.NO_PROMISE and row.status != "optimal"]
     statuses = "status " + ", ".join(sorted({row.status for row in outside or unproven}))
     if outside:
         yield (f"{lines.label(line)}: {len(outside)} of {len(solved)} solved runs are outside ω "
@@ -448,7 +451,8 @@ def _runs_figure(output, logs):
     return output.figure("runs", "Bound and plan of single runs", curves.runs(groups))
 
 
-BEST_KNOWN_COLUMNS = ["map_name", "scen_type", "type_id", "agents", *LINE_COLUMNS, "best_known_bound", "best_known_cost",
+BEST_KNOWN_COLUMNS = ["map_name", "scen_type", "type_id", "agents", *LINE_COLUMNS, "best_known_bound",
+                      "best_known_cost",
                       "cost", "lower_bound", "cost_ratio", "better_plan", "higher_bound", "closes"]
 
 

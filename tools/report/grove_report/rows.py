@@ -91,7 +91,7 @@ class Row(NamedTuple):
         return self.runtime_s if self.wall_s is None else self.wall_s
 
     @property
-    def bounds_every_plan(self):
+    def bound_holds_for_all_plans(self):
         """Whether the lower bound holds for all plans, not only for plans without following conflicts."""
         return "--no-following" not in self.options
 

@@ -51,17 +51,18 @@ def place_of(row):
 class Submission(NamedTuple):
     text: str
     rows: int
-    left_out: Counter  # {reason: number of runs}
+    omitted: Counter  # {reason: number of runs}
 
 
 def _lower_bound(rows, cost):
     """Returns the highest bound, proven or claimed, that does not exceed `cost`. Returns None if there is none."""
-    bounds = [bound for row in rows if row.bounds_every_plan for bound in (row.lower_bound, row.claimed_lower_bound)
+    bounds = [bound for row in rows if row.bound_holds_for_all_plans
+              for bound in (row.lower_bound, row.claimed_lower_bound)
               if bound is not None and bound <= cost]
     return max(bounds, default=None)
 
 
-def _best_plan(rows, left_out):
+def _best_plan(rows, omitted):
     """Returns (cost, motion strings) of the cheapest plan whose file still agrees with its row.
 
     Returns None if there is none.
@@ -74,7 +75,7 @@ def _best_plan(rows, left_out):
                 raise BadPlan(f"costs {cost}; expected {row.cost} as in the row")
             return row.cost, [motion_string(path) for path in paths]
         except BadPlan as error:
-            left_out[f"{row.plan_file}: {error}"] += 1
+            omitted[f"{row.plan_file}: {error}"] += 1
     return None
 
 
@@ -94,26 +95,26 @@ def submission(rows, best):
 
     rows: the rows of one method. best: best_costs() of all rows; bounds above these costs are omitted.
     """
-    left_out = Counter()
+    omitted = Counter()
     fit = []
     for row in rows:
         why = _why_not(row)
-        left_out[why] += bool(why)
+        omitted[why] += bool(why)
         fit += [] if why else [row]
     file = io.StringIO(newline="")
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(COLUMNS)
     count = 0
     for place, group in sorted(grouped(fit, place_of).items()):
-        found = _best_plan(group, left_out)
+        found = _best_plan(group, omitted)
         if not found:
             continue
         cost, motions = found
         bound = _lower_bound(group, min(best[row.problem, row.instance] for row in group))
         writer.writerow([*place, "" if bound is None else bound, cost, "FALSE", "\n".join(motions)])
-        left_out["not the cheapest plan of the instance"] += len(group) - 1
+        omitted["not the cheapest plan of the instance"] += len(group) - 1
         count += 1
-    return Submission(file.getvalue(), count, +left_out)
+    return Submission(file.getvalue(), count, +omitted)
 
 
 # --- Downloads ---

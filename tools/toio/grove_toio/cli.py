@@ -10,7 +10,7 @@ from grove_driving.arguments import (Parser, amount, integer, integers, number, 
                                      wrong)
 from grove_driving.bad_input import BadInput, at
 from grove_driving.drive_log import ExecutionLog, open_log
-from grove_driving.program import FAILURE, complain, exit_code
+from grove_driving.program import FAILURE, exit_code, print_error
 
 from . import demo, rings
 from .cells import read_cell_order, size
@@ -256,7 +256,7 @@ def _run(arguments):
         say(line)
     failure = _failure(a, outcome, world)
     if failure:
-        complain(failure)
+        print_error(failure)
     return FAILURE if failure else 0
 
 

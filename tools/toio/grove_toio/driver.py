@@ -24,9 +24,9 @@ from .simulated import UNITS_PER_SPEED
 
 POLL = 0.03
 CLEAR_TO_BEGIN, CLEAR_TO_CONTINUE = BODY + 1.0, BODY
-BY_HAND = REACHED_BOX + 2       # distance below which a cube may ignore a target (REACHED_BOX plus noise), units
+LAST_UNITS = REACHED_BOX + 2    # distance below which a cube may ignore a target (REACHED_BOX plus noise), units
 ROLL_SPEED = 20
-UNHEARD = 1.5                   # a cube at rest can appear to be up to this far outside the tolerance, units
+REST_NOISE = 1.5                # a cube at rest can appear to be up to this far outside the tolerance, units
 ASTRAY = 0.75                   # a cube farther from its lane is not driven back, cells
 TURN_TOLERANCE = 8
 ASK_SECONDS = 0.5
@@ -119,7 +119,7 @@ class Driver:
     async def turn(self, handle, _, action):
         wanted = HEADINGS[action.heading]
         while True:
-            if self.fit(handle):
+            if self.is_drivable(handle):
                 if handle.at_rest and abs(turn_between(handle.angle, wanted)) <= TURN_TOLERANCE:
                     return
                 if handle.at_rest:
@@ -135,7 +135,7 @@ class Driver:
                 self.set_state(handle, "working")
                 await self.poll(handle)
                 left -= self.now() - then
-            elif self.fit(handle) and handle.at_rest:
+            elif self.is_drivable(handle) and handle.at_rest:
                 await self.reach(handle, handle.place, self.grid.tolerance)
             else:
                 await self.poll(handle)
@@ -157,13 +157,13 @@ class Driver:
         self.under_way.discard(ring)
 
     def stands(self, handle):
-        return self.fit(handle) and handle.at_rest \
-            and distance(handle.mean, handle.place) <= self.grid.tolerance + UNHEARD
+        return self.is_drivable(handle) and handle.at_rest \
+            and distance(handle.mean, handle.place) <= self.grid.tolerance + REST_NOISE
 
     async def stand_until(self, handle, may, state="waiting"):
         """Waits until may() returns true. If the cube is pushed away in the meantime, drives it back to its place."""
         while not may():
-            if not self.fit(handle):
+            if not self.is_drivable(handle):
                 pass
             elif handle.at_rest and not self.stands(handle):
                 await self.reach(handle, handle.place, self.grid.tolerance)
@@ -177,24 +177,24 @@ class Driver:
 
     # ---- Motion
 
-    async def reach(self, handle, goal, tolerance, onward=lambda: None):
-        """Drives the cube until it is at rest at the goal, or is detected on the lane from the goal to onward()."""
+    async def reach(self, handle, goal, tolerance, next_point=lambda: None):
+        """Drives the cube until it is at rest at the goal, or is detected on the lane from the goal to next_point()."""
         handle.goal = goal
         while True:
-            handle.far = far = onward()
-            if self.fit(handle):
-                if far and handle.in_lane(goal, far, tolerance):
+            handle.onward = onward = next_point()
+            if self.is_drivable(handle):
+                if onward and handle.in_lane(goal, onward, tolerance):
                     return
                 if handle.at_rest and distance(handle.mean, goal) <= tolerance:
                     return
-                await self.continue_to(handle, goal, far)
+                await self.continue_to(handle, goal, onward)
             else:
                 await self.hold(handle)
             await self.poll(handle)
 
-    async def continue_to(self, handle, goal, far):
-        path = [goal, far] if far else [goal]
-        if far and self.in_the_way(handle, path):
+    async def continue_to(self, handle, goal, onward):
+        path = [goal, onward] if onward else [goal]
+        if onward and self.in_the_way(handle, path):
             path = [goal]
         blocker = self.in_the_way(handle, path)
         if blocker:
@@ -220,22 +220,22 @@ class Driver:
         """Extends or shortens a journey in progress. Other motions are short, so they are left to end."""
         if handle.command.kind != "journey" or handle.command.path[-1] == path[-1]:
             return
-        if len(path) == 2 or not self.within_hand(handle.position, path[0]):
+        if len(path) == 2 or not self.within_last_units(handle.position, path[0]):
             await handle.travel(path, self.speed)
         else:
             await handle.stop()
 
     async def set_off(self, handle, path):
-        if len(path) == 1 and self.within_hand(handle.mean, path[0]):
-            await self.by_hand(handle, path[0])
+        if len(path) == 1 and self.within_last_units(handle.mean, path[0]):
+            await self.cover_last_units(handle, path[0])
         else:
             await handle.travel(path, self.speed)
 
     @staticmethod
-    def within_hand(point, goal):
-        return abs(goal[0] - point[0]) <= BY_HAND and abs(goal[1] - point[1]) <= BY_HAND
+    def within_last_units(point, goal):
+        return abs(goal[0] - point[0]) <= LAST_UNITS and abs(goal[1] - point[1]) <= LAST_UNITS
 
-    async def by_hand(self, handle, goal):
+    async def cover_last_units(self, handle, goal):
         """Turns the cube towards or away from the goal, then rolls. For last units, where a cube ignores targets."""
         dx, dy = goal[0] - handle.mean[0], goal[1] - handle.mean[1]
         way, bearing = math.hypot(dx, dy), math.degrees(math.atan2(dy, dx))
@@ -258,26 +258,27 @@ class Driver:
 
     # ---- Failures
 
-    def fit(self, handle):
+    def is_drivable(self, handle):
         """Returns whether the cube can be driven. Otherwise reports the cause, each cause once."""
         if handle.trouble:
-            return self.unfit(handle, "lost", handle.trouble)
+            return self.report_undrivable(handle, "lost", handle.trouble)
         if handle.missing:
-            return self.unfit(handle, "lifted", "is off the mat")
+            return self.report_undrivable(handle, "lifted", "is off the mat")
         if handle.silent or handle.position is None:
-            return self.unfit(handle, "lost", "has stopped sending positions")
+            return self.report_undrivable(handle, "lost", "has stopped sending positions")
         if handle.strays() > ASTRAY * self.grid.pitch:
             stands, wanted = self.grid.cell(handle.position), self.grid.cell(handle.goal)
-            return self.unfit(handle, "lost", f"stands at [{stands[0]:.1f}, {stands[1]:.1f}], far from its lane to "
-                              f"[{wanted[0]:.1f}, {wanted[1]:.1f}]; put the cube on its lane")
-        self.withdraw(handle, "unfit", "continues")
+            return self.report_undrivable(
+                handle, "lost", f"stands at [{stands[0]:.1f}, {stands[1]:.1f}], far from its lane to "
+                                f"[{wanted[0]:.1f}, {wanted[1]:.1f}]; put the cube on its lane")
+        self.withdraw(handle, "undrivable", "continues")
         return True
 
-    def unfit(self, handle, state, why):
+    def report_undrivable(self, handle, state, why):
         if handle.position is None and self.now() < PATIENCE:
             return False    # no report yet, because the first position has just been requested
         self.set_state(handle, state)
-        self.report(handle, "unfit", why)
+        self.report(handle, "undrivable", why)
         return False
 
     def report(self, handle, about, text):
@@ -295,8 +296,8 @@ class Driver:
     def waits_of(self, handle):
         """Describes what the robot waits for or does. Returns None if it has completed all its actions and has no fault."""
         k = handle.done
-        if (handle.name, "unfit") in self.reported:
-            return f"{handle.name} {self.reported[handle.name, 'unfit'][1]}"
+        if (handle.name, "undrivable") in self.reported:
+            return f"{handle.name} {self.reported[handle.name, 'undrivable'][1]}"
         if (handle.name, "blocked") in self.reported:
             return f"{handle.name} {self.reported[handle.name, 'blocked'][1]}"
         if k == len(handle.robot.actions):

@@ -28,7 +28,7 @@ class Handle:
     def __init__(self, robot, cube, place, now):
         self.robot, self.cube, self.name, self.now = robot, cube, robot.name, now
         self.place = self.goal = place      # centres of its current or last cell, and of its next cell
-        self.far = None                     # point to which it may drive on from the goal without a stop, or None
+        self.onward = None                  # point to which it may drive on from the goal without a stop, or None
         self.done = 0                       # number of actions done
         self.state = "waiting"
         self.command = None
@@ -133,7 +133,7 @@ class Handle:
 
     def strays(self):
         """Returns the distance of the cube from its lane, in units."""
-        path = [self.place, self.goal, *([self.far] if self.far else [])]
+        path = [self.place, self.goal, *([self.onward] if self.onward else [])]
         return min(point_to_segment(self.position, a, b) for a, b in zip(path, path[1:]))
 
     # ---- commands

@@ -17,7 +17,7 @@ from grove_driving.bad_input import BadInput
 from grove_driving.drive_log import ExecutionLog, open_log
 from grove_driving.frame import Frame
 from grove_driving.order import read_order
-from grove_driving.program import FAILURE, complain, exit_code
+from grove_driving.program import FAILURE, exit_code, print_error
 
 from . import trial
 from .clock import Clock
@@ -299,7 +299,8 @@ class _Drive:
         control = self.control
         done = sum(control.releases.done.values())
         real, seconds = self.seconds
-        yield f"Time          {seconds:.1f} s" + (f" of the vehicles, {real:.1f} s real" if self.clock.pace != 1 else "")
+        yield f"Time          {seconds:.1f} s" + (f" of the vehicles, {real:.1f} s real"
+                                                  if self.clock.pace != 1 else "")
         yield f"Vehicles      {sum(v.completed for v in control.vehicles.values())} of {len(control.vehicles)} done"
         yield f"Actions       {done} of {sum(len(r.actions) for r in self.setup.order.robots)} of the passing order"
         yield f"Orders        {control.messages} messages, {control.resent} of them repeats"
@@ -349,7 +350,7 @@ def _drive(a):
     for line in drive.summary():
         say(line)
     if not completed:
-        complain(drive.failure())
+        print_error(drive.failure())
     return 0 if completed else FAILURE
 
 
@@ -378,7 +379,7 @@ def _vehicles(a):
     world = fleet.world
     print(f"Messages      {fleet.received} orders received, {sum(v.refused for v in fleet.vehicles)} refused; "
           f"{fleet.delayed} messages late, {fleet.lost} lost")
-    print(f"Done          {sum(v.acted for v in fleet.vehicles)} works and visits")
+    print(f"Done          {sum(v.acted for v in fleet.vehicles)} task executions and visits")
     if world.least_pair:
         print(f"Distance      at least {world.least:.2f} m between centres, of {' and '.join(world.least_pair)}")
     print("Places        " + (world.collisions[0] if world.collisions else "no vehicle drove to an occupied place"))
@@ -455,7 +456,7 @@ def _trial(a):
     failures = [text for failed, text in ((not completed, drive.failure()), (vehicles_code, "vehicles collided"),
                                           (monitor.violations, "messages were wrong")) if failed]
     if failures:
-        complain("; ".join(failures))
+        print_error("; ".join(failures))
     return FAILURE if failures else 0
 
 

@@ -40,7 +40,7 @@ class Vehicle:
     @property
     def completed(self):
         return self.reached == self.route.last and all(w.id in self.finished for n in self.route.nodes
-                                                       for w in n.works)
+                                                       for w in n.node_actions)
 
 
 class Control:

@@ -19,11 +19,11 @@ class Style:
         self.kinds = {"work": work, "visit": visit}
         self.seconds_per_step = seconds_per_step
 
-    def action(self, work):
-        parameters = [{"key": "task", "value": work.task}]
-        if work.steps:
-            parameters.append({"key": "seconds", "value": _number(work.steps * self.seconds_per_step)})
-        return {"actionType": self.kinds[work.kind], "actionId": work.id, "blockingType": "HARD",
+    def action(self, node_action):
+        parameters = [{"key": "task", "value": node_action.task}]
+        if node_action.steps:
+            parameters.append({"key": "seconds", "value": _number(node_action.steps * self.seconds_per_step)})
+        return {"actionType": self.kinds[node_action.kind], "actionId": node_action.id, "blockingType": "HARD",
                 "actionParameters": parameters}
 
     def node(self, route, i, released):
@@ -33,7 +33,7 @@ class Style:
         if node.theta is not None:
             position["theta"] = _angle(node.theta)
         return {"nodeId": node.id, "sequenceId": 2 * i, "released": released, "nodePosition": position,
-                "actions": [self.action(work) for work in node.works]}
+                "actions": [self.action(each) for each in node.node_actions]}
 
     def edge(self, route, i, released):
         """Returns the edge from node i to node i + 1."""

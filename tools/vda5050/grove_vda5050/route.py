@@ -19,7 +19,7 @@ THETA = {"E": 0.0, "N": math.pi / 2, "W": math.pi, "S": -math.pi / 2}  # radians
 ALLOWED = set("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.:")
 
 
-class Work(NamedTuple):
+class NodeAction(NamedTuple):
     id: str
     kind: str               # "work" (task with duration) or "visit"
     task: str
@@ -32,8 +32,8 @@ class Node(NamedTuple):
     at: tuple               # (x, y) in metres
     begin: int              # index of the first action of the passing order that is done on the node
     end: int                # index after its last action
-    works: tuple            # Works (VDA 5050 actions) on the node, in order
-    works_at: tuple         # for each action from begin to end, the number of works done when the action ends
+    node_actions: tuple     # VDA 5050 actions on the node, in order
+    done_after: tuple       # for each action from begin to end, the number of node actions done after it
     theta: float            # final heading, radians; None if it is not the last node, or without headings
 
 
@@ -57,15 +57,15 @@ def node_id(place):
     return f"{place[0]}_{place[1]}" if is_cell(place) else ":".join(readable(str(part)) for part in place)
 
 
-def _works(number, visits, actions):
-    """Returns (Works of a node, number of Works done at the end of each of its passing-order actions)."""
+def _node_actions(number, visits, actions):
+    """Returns (actions of a node, number of them done after each of its passing-order actions)."""
     those = [("visit", task, 0) for task in visits]
     done = []
     for action in actions:
         if action.kind == "work":
             those.append(("work", action.task, action.steps))
         done.append(len(those))
-    return tuple(Work(f"{number}.{i}-{readable(those[i][1])}", *those[i]) for i in range(len(those))), tuple(done)
+    return tuple(NodeAction(f"{number}.{i}-{readable(those[i][1])}", *those[i]) for i in range(len(those))), tuple(done)
 
 
 def make_route(robot, serial):
@@ -74,10 +74,10 @@ def make_route(robot, serial):
     nodes = []
     for number, (arrival, end) in enumerate(zip([-1] + moves, moves + [len(robot.actions)])):
         there = robot if arrival < 0 else robot.actions[arrival]
-        works, done = _works(number, there.visits, robot.actions[arrival + 1:end])
+        node_actions, done = _node_actions(number, there.visits, robot.actions[arrival + 1:end])
         place = robot.start if arrival < 0 else there.place
         is_last = end == len(robot.actions)
-        nodes.append(Node(node_id(place), place, there.at, arrival + 1, end, works, done,
+        nodes.append(Node(node_id(place), place, there.at, arrival + 1, end, node_actions, done,
                           THETA[headings[-1]] if is_last and headings[-1] else None))
     return Route(robot.name, serial, tuple(nodes), headings[-1] is not None)
 
@@ -85,19 +85,19 @@ def make_route(robot, serial):
 def actions_done(route, reached, finished):
     """Returns the number of passing-order actions that a vehicle has completed.
 
-    reached: last node that it reached. finished: ids of its finished Works. A turn counts as completed as soon as a
-    later Work is finished or a later node is reached.
+    reached: last node that it reached. finished: ids of its finished node actions. A turn counts as completed as soon
+    as a later node action is finished or a later node is reached.
     """
     node = route.nodes[reached]
     count = 0
-    while count < len(node.works) and node.works[count].id in finished:
+    while count < len(node.node_actions) and node.node_actions[count].id in finished:
         count += 1
-    if reached == route.last and count == len(node.works):
+    if reached == route.last and count == len(node.node_actions):
         return node.end
     done = node.begin
-    for k, needed in enumerate(node.works_at):
-        works = needed - (node.works_at[k - 1] if k else 0)
-        if works and needed <= count:
+    for k, needed in enumerate(node.done_after):
+        added = needed - (node.done_after[k - 1] if k else 0)
+        if added and needed <= count:
             done = node.begin + k + 1
     return done
 

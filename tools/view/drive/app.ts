@@ -3,12 +3,12 @@
 
 import type { TaskFacts } from "../page/facts";
 import type { Model } from "../page/model";
-import type { Choice } from "../page/stage";
+import type { PageState } from "../page/stage";
 import type { Drive } from "./drive";
 import type { Order } from "./order";
 import { DrivePlayer } from "./player";
 
-export class DriveApp implements Choice {
+export class DriveApp implements PageState {
   readonly player: DrivePlayer;
   readonly tasks: TaskFacts[]; // times in seconds of the execution
   chosen = -1;
@@ -23,11 +23,11 @@ export class DriveApp implements Choice {
   ) {
     this.player = new DrivePlayer(isFollowed);
     this.tasks = model.tasks.map(({ agents }) => ({ agents, times: [], begin: Infinity }));
-    this.take(drive);
+    this.setDrive(drive);
   }
 
   // Replaces the data of the execution, after the log has grown or was replaced.
-  take(drive: Drive): void {
+  setDrive(drive: Drive): void {
     this.drive = drive;
     this.player.end = drive.end;
     for (const task of this.tasks) {

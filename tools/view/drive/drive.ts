@@ -27,7 +27,7 @@ export function markOf(state: number): string {
 const kFirst = 64;
 
 // The observations of one robot, in order of time.
-export class Sightings {
+export class Observations {
   count = 0;
   times = new Float64Array(kFirst); // seconds, ascending
   xs = new Float32Array(kFirst); // in world units
@@ -91,11 +91,11 @@ export class Drive {
   order = ""; // file name of the passing order; empty: the execution has not started
   secondsPerStep = 1;
   end = 0; // time of the last observation, in seconds
-  readonly robots: Sightings[]; // by agent
+  readonly robots: Observations[]; // by agent
   readonly completedAt: number[][]; // by agent and action: time of completion, in seconds
 
   constructor(model: Model) {
-    this.robots = model.agents.map(() => new Sightings());
+    this.robots = model.agents.map(() => new Observations());
     this.completedAt = model.agents.map(() => []);
   }
 

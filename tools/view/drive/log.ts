@@ -15,9 +15,9 @@ const kLong = 1e9; // seconds
 
 export class Log {
   readonly drive: Drive;
-  leftOut = 0; // number of skipped lines
-  firstTrouble = ""; // error of the first skipped line
-  private isBegun = false;
+  skippedLines = 0; // number of invalid lines
+  firstError = ""; // error of the first skipped line
+  private hasHeader = false;
   private readonly agents: Map<string, number>;
   private readonly named = new Set<string>(); // ids of the robots in the header
   private rest = ""; // the incomplete last line
@@ -38,20 +38,20 @@ export class Log {
       if (line.trim() === "" || this.isNoDrive) continue;
       try {
         const data = parse(line);
-        if (this.isBegun) this.see(data);
-        else this.begin(data);
+        if (this.hasHeader) this.addObservation(data);
+        else this.readHeader(data);
       } catch (error) {
         const why = error instanceof Error ? error.message : String(error);
-        if (this.leftOut++ === 0) this.firstTrouble = `line ${this.lines}: ${why}`;
+        if (this.skippedLines++ === 0) this.firstError = `line ${this.lines}: ${why}`;
       }
     }
   }
 
   get isNoDrive(): boolean {
-    return !this.isBegun && this.leftOut > 0;
+    return !this.hasHeader && this.skippedLines > 0;
   }
 
-  private begin(data: Value): void {
+  private readHeader(data: Value): void {
     if (data.key("format").text() !== kFormat) data.key("format").fail(`'${kFormat}'`);
     this.drive.secondsPerStep = seconds(data.key("seconds_per_step"), 0);
     for (const robot of data.key("robots").list()) {
@@ -59,10 +59,10 @@ export class Log {
       this.named.add(robot.text());
     }
     this.drive.order = nameOf(data.key("order").text());
-    this.isBegun = true;
+    this.hasHeader = true;
   }
 
-  private see(data: Value): void {
+  private addObservation(data: Value): void {
     const { drive, model, order } = this;
     const id = data.key("robot");
     if (!this.named.has(id.text())) id.fail("a robot that the first line names");

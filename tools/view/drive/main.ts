@@ -35,7 +35,7 @@ function begin(): void {
   } catch (error) {
     const why = error instanceof Error ? error.message : String(error);
     document.body.replaceChildren(el("main", { class: "failure" },
-      el("h1", {}, "This drive cannot be shown"), el("p", {}, why)));
+      el("h1", {}, "This execution cannot be shown"), el("p", {}, why)));
   }
 }
 
@@ -54,20 +54,20 @@ function follow(model: Model, order: Order): void {
   let log = new Log(model, order);
   const app = new DriveApp(model, order, log.drive, true);
   const strip = new Strip(app);
-  const take = () => {
+  const update = () => {
     strip.fail(troubleText(log));
-    app.take(log.drive);
+    app.setDrive(log.drive);
   };
   show(app, strip);
   let isLinked = false;
   void new Follower({
     begin: () => {
       log = new Log(model, order);
-      take();
+      update();
     },
     add: (text, isAll) => {
       log.add(text);
-      take();
+      update();
       // Applies the link only now, because it can name any moment of the log so far.
       if (isAll && !isLinked) linkPage(app);
       isLinked ||= isAll;
@@ -132,7 +132,7 @@ function sceneOf(app: DriveApp, frame: DriveNow) {
       paint: (c: CanvasRenderingContext2D, ...[camera, agent, time, colors]: Painted) =>
         paths.paint(c, camera, agent, app.order.planTime(agent, app.drive.actionsAt(agent, time)), colors),
     },
-    label: "The drive",
+    label: "The execution",
     caption: "",
     heat: () => null,
     elsewhere: () => null,

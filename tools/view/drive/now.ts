@@ -56,15 +56,15 @@ export class DriveNow implements RobotsNow {
     const robot = this.drive.robots[i];
     const at = robot.at(time);
     const next = Math.min(at + 1, robot.count - 1);
-    const part = next > at ? this.partGone(i, at, time) : 0;
-    this.xs[i] = robot.xs[at] + (robot.xs[next] - robot.xs[at]) * part;
-    this.ys[i] = robot.ys[at] + (robot.ys[next] - robot.ys[at]) * part;
+    const progress = next > at ? this.progress(i, at, time) : 0;
+    this.xs[i] = robot.xs[at] + (robot.xs[next] - robot.xs[at]) * progress;
+    this.ys[i] = robot.ys[at] + (robot.ys[next] - robot.ys[at]) * progress;
     const turn = turnBetween(robot.angles[at], robot.angles[next]);
-    this.angles[i] = robot.angles[at] + (Number.isNaN(turn) ? 0 : turn * part);
+    this.angles[i] = robot.angles[at] + (Number.isNaN(turn) ? 0 : turn * progress);
   }
 
   // Returns the completed fraction of the way from observation `at` to the next one, from 0 to 1.
-  private partGone(i: number, at: number, time: number): number {
+  private progress(i: number, at: number, time: number): number {
     const { times, states } = this.drive.robots[i];
     const end = times[at + 1];
     const longest = kStates[states[at]] === "moving" ? kLongest : kBrief;

@@ -89,7 +89,7 @@ export function counts(app: DriveApp, time: number): Counts {
 
 // Returns the problem with the followed log; empty: none.
 export function troubleText(log: Log): string {
-  if (log.leftOut === 0) return "";
-  return log.isNoDrive ? `This is not the log of a drive of this plan: ${log.firstTrouble}`
-    : `⚠ ${plural(log.leftOut, "line")} of the log left out: ${log.firstTrouble}`;
+  if (log.skippedLines === 0) return "";
+  return log.isNoDrive ? `This is not the log of an execution of this plan: ${log.firstError}`
+    : `⚠ ${plural(log.skippedLines, "invalid log line")} skipped; first: ${log.firstError}`;
 }

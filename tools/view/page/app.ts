@@ -10,7 +10,7 @@ import type { Model, Plan } from "./model";
 import { Player } from "./player";
 import { Waits } from "./waiting";
 
-export interface Viewed {
+export interface PlanView {
   plan: Plan;
   facts: PlanFacts;
   checker: Checker;
@@ -19,7 +19,7 @@ export interface Viewed {
 
 export class App {
   readonly player: Player;
-  readonly viewed: Viewed[]; // the plans that have paths, with the facts about each; at most two
+  readonly viewed: PlanView[]; // the plans that have paths, with the facts about each; at most two
   chosen = -1; // the selected robot; -1: none
   chosenTask = -1;
   following = false;
@@ -93,13 +93,13 @@ export class App {
   }
 }
 
-function view(model: Model, plan: Plan): Viewed {
+function view(model: Model, plan: Plan): PlanView {
   const facts = planFacts(model, plan);
   return { plan, facts, checker: new Checker(model, plan), waits: new Waits(model, plan, facts) };
 }
 
 // Returns the violations in which a robot is involved, or all violations if `agent` is -1.
-export function violationsOf(viewed: Viewed, agent: number): Violation[] {
+export function violationsOf(viewed: PlanView, agent: number): Violation[] {
   const all = viewed.checker.violations;
   return agent < 0 ? all : all.filter((violation) => violation.agents.includes(agent));
 }

@@ -3,7 +3,7 @@
 // page only. It checks first each robot by itself, then collisions, then the claims of the file. The page
 // relies on no other verdict.
 
-import { Crowd, type ReportCollision } from "./crowd";
+import { Occupancy, type ReportCollision } from "./occupancy";
 import { finish } from "./facts";
 import type { Agent, AgentPlan, Angle, Model, Plan, WorkTime } from "./model";
 import type { Track, TurnTrack } from "./track";
@@ -88,11 +88,11 @@ export class Checker {
 
   // Finds, for each time, robots on the same place, and robots that swapped places in the step before.
   private *checkMoments(): Generator<void> {
-    const crowd = new Crowd(this.plan, this.model.world.places);
+    const occupancy = new Occupancy(this.plan, this.model.world.places);
     const report: ReportCollision = (kind, time, a, b) =>
-      this.reportCollision(kind, time, a, b, crowd.here[b]);
+      this.reportCollision(kind, time, a, b, occupancy.here[b]);
     for (let time = 0; time <= this.end; ++time) {
-      crowd.advance(report);
+      occupancy.advance(report);
       yield;
     }
   }
@@ -117,7 +117,7 @@ export class Checker {
     const cost = agents.reduce((sum, plan) => sum + finish(plan), 0);
     if (claims.cost !== undefined && claims.cost !== cost)
       this.add("cost", this.end, [], -1,
-        `the costs add up to ${cost}, but the plan says ${claims.cost}`);
+        `the costs add up to ${cost}, but the plan claims ${claims.cost}`);
     const wrong = wrongClaim(this.plan, cost);
     if (wrong) this.add("claim", this.end, [], -1, wrong);
   }
@@ -173,7 +173,7 @@ class AgentCheck {
     const rest = finish(this.plan);
     if (this.plan.cost !== null && this.plan.cost !== rest)
       this.report("cost", rest,
-        `comes to rest at ${rest}, but the plan says ${this.plan.cost}`, -1);
+        `comes to rest at ${rest}, but the plan claims ${this.plan.cost}`, -1);
   }
 
   private hasDoneEnough(): boolean {
@@ -264,7 +264,7 @@ class AgentCheck {
     for (const piece of this.plan.work) {
       this.checkPiece(piece);
       if (done.has(piece.task))
-        this.report("work", piece.begin, `does ${this.taskName(piece)} twice`, -1);
+        this.report("work", piece.begin, `executes ${this.taskName(piece)} twice`, -1);
       done.add(piece.task);
       yield;
     }
@@ -284,7 +284,7 @@ class AgentCheck {
     for (const piece of [...this.plan.work].sort((a, b) => a.begin - b.begin || a.end - b.end)) {
       if (longest && piece.begin < longest.end && piece.task !== longest.task)
         this.report("work", piece.begin,
-          `works on ${this.taskName(longest)} and ${this.taskName(piece)} at once`, -1);
+          `executes ${this.taskName(longest)} and ${this.taskName(piece)} at once`, -1);
       if (!longest || piece.end > longest.end) longest = piece;
     }
   }
@@ -296,12 +296,12 @@ class AgentCheck {
   private checkPiece(piece: WorkTime): void {
     const task = this.model.tasks[piece.task];
     if (!this.agent.tasks.includes(piece.task) || task.duration === 0) {
-      this.report("work", piece.begin, `works on ${task.name}, which is not one of its tasks that take time`, -1);
+      this.report("work", piece.begin, `executes ${task.name}, which is not one of its tasks that take time`, -1);
       return;
     }
     if (piece.end - piece.begin !== task.duration)
       this.report("work", piece.begin,
-        `works on ${task.name} from ${piece.begin} to ${piece.end}, which takes ${task.duration}`,
+        `executes ${task.name} from ${piece.begin} to ${piece.end}, which takes ${task.duration}`,
         task.place);
     const { working } = this.agent;
     const begun = working !== null && working.task === piece.task && working.done === -piece.begin;
@@ -311,7 +311,7 @@ class AgentCheck {
     const first = Math.max(0, piece.begin);
     if (this.place(first) !== task.place)
       this.report("work", first,
-        `works on ${task.name} on ${this.name(this.place(first))}, not on ${this.name(task.place)}`,
+        `executes ${task.name} on ${this.name(this.place(first))}, not on ${this.name(task.place)}`,
         this.place(first));
     this.checkStill(first, piece);
   }
@@ -341,7 +341,7 @@ class AgentCheck {
   private *checkVisits(): Generator<void> {
     for (const index of this.agent.tasks) {
       const task = this.model.tasks[index];
-      if (this.visit(index, 0) === Infinity)
+      if (this.timeOfVisit(index, 0) === Infinity)
         this.report("visit", this.plan.track.end,
           `never ${task.duration > 0 ? "does" : "visits"} ${task.name} on ${this.name(task.place)}`,
           task.place);
@@ -350,7 +350,7 @@ class AgentCheck {
   }
 
   // Returns the first time from `begin` on at which the task counts as visited; Infinity: never.
-  private visit(index: number, begin: number): number {
+  private timeOfVisit(index: number, begin: number): number {
     const task = this.model.tasks[index];
     const { track, work } = this.plan;
     if (task.duration === 0) return track.firstTimeOn(task.place, begin);
@@ -369,7 +369,7 @@ class AgentCheck {
     let now = 0;
     for (const task of order) {
       yield;
-      now = this.visit(task, now);
+      now = this.timeOfVisit(task, now);
       if (now !== Infinity) continue;
       this.report("order", this.plan.track.end,
         `does not visit ${this.model.tasks[task].name} in this order`, -1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Differences between two plans for the same instance, robot by robot.
 
-import type { Viewed } from "./app";
+import type { PlanView } from "./app";
 import { visitsOf } from "./facts";
 import type { AgentPlan, Model } from "./model";
 import type { Track, TurnTrack } from "./track";
@@ -9,34 +9,34 @@ import type { Track, TurnTrack } from "./track";
 export interface Difference {
   agent: number;
   costs: [number, number]; // in the first and second plan; NaN: no path
-  by: number; // second cost minus first cost; NaN: one plan has no path
-  parts: number; // first time at which the plans differ for this robot; Infinity: never
-  orders: boolean; // whether the orders of the visits differ
+  costChange: number; // second cost minus first cost; NaN: one plan has no path
+  firstDifference: number; // first time at which the plans differ for this robot; Infinity: never
+  hasOtherOrder: boolean; // whether the orders of the visits differ
 }
 
 export interface Comparison {
   all: Difference[]; // only robots that differ, by ascending number
   costs: [number, number];
-  by: number; // second cost minus first cost; NaN: a robot has no path in one of the plans
+  costChange: number; // second cost minus first cost; NaN: a robot has no path in one of the plans
 }
 
-export function compare(model: Model, one: Viewed, other: Viewed): Comparison {
+export function compare(model: Model, one: PlanView, other: PlanView): Comparison {
   const all: Difference[] = [];
   const costs: [number, number] = [one.facts.cost, other.facts.cost];
   let complete = true;
   model.agents.forEach((agent, index) => {
     const [a, b] = [one.plan.agents[index], other.plan.agents[index]];
     if (a.track.isEmpty || b.track.isEmpty) complete = false;
-    const cost = (viewed: Viewed) =>
+    const cost = (viewed: PlanView) =>
       viewed.plan.agents[index].track.isEmpty ? NaN : viewed.facts.finish[index];
     const both: [number, number] = [cost(one), cost(other)];
-    const by = both[1] - both[0];
-    const parts = partingTime(a, b);
-    if (parts === Infinity && a.track.isEmpty === b.track.isEmpty) return;
+    const costChange = both[1] - both[0];
+    const firstDifference = partingTime(a, b);
+    if (firstDifference === Infinity && a.track.isEmpty === b.track.isEmpty) return;
     const order = (plan: AgentPlan) => visitsOf(model, plan, agent).map((v) => v.task).join();
-    all.push({ agent: index, costs: both, by, parts, orders: order(a) !== order(b) });
+    all.push({ agent: index, costs: both, costChange, firstDifference, hasOtherOrder: order(a) !== order(b) });
   });
-  return { all, costs, by: complete ? costs[1] - costs[0] : NaN };
+  return { all, costs, costChange: complete ? costs[1] - costs[0] : NaN };
 }
 
 // Returns the first time at which places, headings or task executions differ; Infinity: never.

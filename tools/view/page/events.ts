@@ -2,7 +2,7 @@
 // Events of a plan, for a list of times to jump to: violations, long waits and their causes, completed tasks,
 // and robots that come to rest.
 
-import type { App, Viewed } from "./app";
+import type { App, PlanView } from "./app";
 import { plural } from "./dom";
 import type { Model } from "./model";
 import type { Wait } from "./waiting";
@@ -40,7 +40,7 @@ function merged(app: App, first: PlanEvent[], second: PlanEvent[]): PlanEvent[] 
   }));
 }
 
-function eventsOfPlan(model: Model, { checker, facts, plan, waits }: Viewed): PlanEvent[] {
+function eventsOfPlan(model: Model, { checker, facts, plan, waits }: PlanView): PlanEvent[] {
   const { agents, tasks } = model;
   const wrong = checker.violations.map(({ time, text, agents }): PlanEvent =>
     ({ kind: "wrong", time, text, agents }));
@@ -60,9 +60,9 @@ function eventsOfPlan(model: Model, { checker, facts, plan, waits }: Viewed): Pl
 // Returns the duration and cause of a wait, such as "6 steps for a7 to pass".
 export function waitText(model: Model, wait: Wait): string {
   const steps = plural(wait.end - wait.begin, "step");
-  const names = wait.for.slice(0, kMostNames).map((other) => model.agents[other].name);
+  const names = wait.met.slice(0, kMostNames).map((other) => model.agents[other].name);
   if (names.length === 0) return `${steps}, although no robot is in its way`;
-  if (wait.for.length > kMostNames) return `${steps} for ${names.join(", ")} and others to pass`;
+  if (wait.met.length > kMostNames) return `${steps} for ${names.join(", ")} and others to pass`;
   const last = names.pop()!;
   return `${steps} for ${names.length > 0 ? `${names.join(", ")} and ${last}` : last} to pass`;
 }

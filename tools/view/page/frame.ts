@@ -61,18 +61,18 @@ export class Frame implements RobotsNow {
     this.time = time;
     const step = Math.floor(time);
     if (step !== this.step) this.enter(step);
-    const part = time - step;
+    const progress = time - step;
     const { xs, ys } = this.model.world;
     for (let i = 0; i < this.count; ++i) {
       if (this.missing[i]) continue;
       const a = this.here[i];
       const b = this.next[i];
-      this.xs[i] = xs[a] + (xs[b] - xs[a]) * part;
-      this.ys[i] = ys[a] + (ys[b] - ys[a]) * part;
+      this.xs[i] = xs[a] + (xs[b] - xs[a]) * progress;
+      this.ys[i] = ys[a] + (ys[b] - ys[a]) * progress;
       const { turns } = this.plan.agents[i];
       this.angles[i] = turns ? (turns.angle(time) * Math.PI) / (2 * turns.turnSteps) : NaN;
     }
-    this.findCollisions(part);
+    this.findCollisions(progress);
     this.faults.mark(this.violations, time, this.colliding);
   }
 
@@ -103,12 +103,12 @@ export class Frame implements RobotsNow {
   // Marks robots that are on the same place at `step`, robots that swap places on the way to the next step
   // and, in the second half of that way, robots that come to the same place. At a whole step it marks robots
   // that swapped places on the way to it.
-  private findCollisions(part: number): void {
+  private findCollisions(progress: number): void {
     this.colliding.fill(0);
     this.meet(this.here);
-    if (part === 0) this.findSwaps(this.before, this.here);
+    if (progress === 0) this.findSwaps(this.before, this.here);
     else this.findSwaps(this.here, this.next);
-    if (part >= 0.5) this.meet(this.next);
+    if (progress >= 0.5) this.meet(this.next);
   }
 
   private meet(places: Int32Array): void {

@@ -3,14 +3,14 @@
 
 import type { Camera } from "./camera";
 
-export interface Hand {
+export interface GestureListener {
   moved(): void; // the camera has moved
   clicked(x: number, y: number): void; // in pixels of the view
 }
 
 const kClickSlack = 4; // pixels that the pointer may move during a click
 
-export function listen(view: HTMLElement, camera: Camera, hand: Hand): void {
+export function listen(view: HTMLElement, camera: Camera, listener: GestureListener): void {
   const fingers = new Map<number, { x: number; y: number }>();
   let slipped = 0;
 
@@ -27,7 +27,7 @@ export function listen(view: HTMLElement, camera: Camera, hand: Hand): void {
     event.preventDefault();
     const { x, y } = at(event);
     camera.zoom(Math.exp(-Math.max(-60, Math.min(60, event.deltaY)) * 0.006), x, y);
-    hand.moved();
+    listener.moved();
   }, { passive: false });
 
   view.addEventListener("pointerdown", (event) => {
@@ -50,13 +50,13 @@ export function listen(view: HTMLElement, camera: Camera, hand: Hand): void {
       slipped += Math.hypot(now.x - before.x, now.y - before.y);
       if (slipped > kClickSlack) camera.pan(now.x - before.x, now.y - before.y);
     }
-    hand.moved();
+    listener.moved();
   });
   const lift = (event: PointerEvent) => {
     if (!fingers.delete(event.pointerId)) return;
     if (event.type === "pointerup" && slipped <= kClickSlack && fingers.size === 0) {
       const { x, y } = at(event);
-      hand.clicked(x, y);
+      listener.clicked(x, y);
     }
   };
   view.addEventListener("pointerup", lift);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Heat of each place: the square root of its share of the maximum, from 0 to 1.
 
-import type { Viewed } from "./app";
+import type { PlanView } from "./app";
 import { Doing } from "./facts";
 import type { Model } from "./model";
 
 export type Heat = "none" | "traffic" | "waits" | "yields";
 
-export function heatMap(model: Model, viewed: Viewed, kind: Heat): Float32Array {
+export function heatMap(model: Model, viewed: PlanView, kind: Heat): Float32Array {
   const heat = new Float32Array(model.world.places);
   if (kind === "traffic") addTraffic(heat, viewed);
   else if (kind === "waits") addWaits(heat, viewed);
@@ -17,12 +17,12 @@ export function heatMap(model: Model, viewed: Viewed, kind: Heat): Float32Array 
   return heat;
 }
 
-function addTraffic(heat: Float32Array, { plan }: Viewed): void {
+function addTraffic(heat: Float32Array, { plan }: PlanView): void {
   for (const { track } of plan.agents)
     if (!track.isEmpty) for (const place of track.visited()) ++heat[place];
 }
 
-function addWaits(heat: Float32Array, { plan, facts }: Viewed): void {
+function addWaits(heat: Float32Array, { plan, facts }: PlanView): void {
   plan.agents.forEach(({ track }, index) => {
     if (track.isEmpty) return;
     for (const span of facts.spans[index])
@@ -31,6 +31,6 @@ function addWaits(heat: Float32Array, { plan, facts }: Viewed): void {
 }
 
 // Counts, for each place, the waits without which the waiting robot would first have met another one there.
-function addYields(heat: Float32Array, { waits }: Viewed): void {
-  for (const wait of waits.all) if (wait.meets >= 0) ++heat[wait.meets];
+function addYields(heat: Float32Array, { waits }: PlanView): void {
+  for (const wait of waits.all) if (wait.firstMeetingPlace >= 0) ++heat[wait.firstMeetingPlace];
 }

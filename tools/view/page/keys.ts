@@ -4,10 +4,10 @@
 import type { Camera } from "./camera";
 import type { Help } from "./panels/help";
 import type { Player } from "./player";
-import type { Choice } from "./stage";
+import type { PageState } from "./stage";
 
 export interface Keys {
-  app: Choice & { readonly player: Player; changed(): void };
+  app: PageState & { readonly player: Player; changed(): void };
   cameras: Camera[];
   search: HTMLElement;
   help: Help;

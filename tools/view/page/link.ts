@@ -3,9 +3,9 @@
 // that advances by itself.
 
 import type { Player } from "./player";
-import type { Choice } from "./stage";
+import type { PageState } from "./stage";
 
-type Linked = Choice & { readonly player: Player & { readonly live?: boolean } };
+type Linked = PageState & { readonly player: Player & { readonly live?: boolean } };
 
 const kSettled = 300; // milliseconds without a change, after which the address is updated
 

@@ -7,7 +7,7 @@ import { el } from "./dom";
 import type { Model } from "./model";
 import { CanvasRobots } from "./robots_canvas";
 import type { RobotsNow } from "./robots_now";
-import { Scenery, type Shown } from "./scenery";
+import { Scenery, type DisplayOptions } from "./scenery";
 
 const kLonger = 140; // length of the longer side, in pixels
 const kLeastRobot = 0.6; // minimum radius of a robot, in pixels
@@ -53,7 +53,7 @@ export class Minimap {
     this.element.style.height = `${world.height * scale}px`;
   }
 
-  paint(frame: RobotsNow, shown: Shown, colors: Colors, ratio: number): void {
+  paint(frame: RobotsNow, shown: DisplayOptions, colors: Colors, ratio: number): void {
     this.element.hidden = this.seen.isFitted;
     if (this.element.hidden) return;
     for (const canvas of [this.ground, this.top]) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Makes the scene of a plan, or of an instance without a plan.
 
-import type { App, Viewed } from "./app";
+import type { App, PlanView } from "./app";
 import { planFacts } from "./facts";
 import { Frame } from "./frame";
 import { heatMap } from "./heat";
@@ -10,7 +10,7 @@ import { Paths } from "./paths";
 import type { Scene } from "./stage";
 import { standing } from "./standing";
 
-export function planScene(app: App, viewed: Viewed): Scene {
+export function planScene(app: App, viewed: PlanView): Scene {
   const { model } = app;
   const other = app.viewed.find((v) => v !== viewed) ?? null;
   let known: { key: string; map: Float32Array } | null = null;
@@ -44,12 +44,12 @@ export function instanceScene({ model }: Pick<App, "model">): Scene {
   };
 }
 
-function positionIn({ model }: App, { plan }: Viewed, robot: number, time: number): Point | null {
+function positionIn({ model }: App, { plan }: PlanView, robot: number, time: number): Point | null {
   const { track } = plan.agents[robot];
   if (track.isEmpty) return null;
   const { xs, ys } = model.world;
   const step = Math.floor(time);
   const [a, b] = [track.place(step), track.place(step + 1)];
-  const part = time - step;
-  return { x: xs[a] + (xs[b] - xs[a]) * part, y: ys[a] + (ys[b] - ys[a]) * part };
+  const progress = time - step;
+  return { x: xs[a] + (xs[b] - xs[a]) * progress, y: ys[a] + (ys[b] - ys[a]) * progress };
 }

@@ -9,7 +9,7 @@ import { Doing } from "./facts";
 import type { Model, Point } from "./model";
 import { labelsOf, shortened } from "./names";
 import type { RobotsNow } from "./robots_now";
-import { isOutside, type Shown } from "./scenery";
+import { isOutside, type DisplayOptions } from "./scenery";
 import { outlined } from "./text";
 
 const kLeastLabeled = 22; // pixels per step, from which on ids are on the robots instead of above them
@@ -33,7 +33,7 @@ export class Labels {
     this.ids = labelsOf(model.agents.map(({ name }) => name), kLongestLabel);
   }
 
-  paint(camera: Camera, frame: RobotsNow, shown: Shown, colors: Colors, ratio: number): void {
+  paint(camera: Camera, frame: RobotsNow, shown: DisplayOptions, colors: Colors, ratio: number): void {
     const step = this.model.world.unit * camera.scale;
     const seen = shown.labels ? this.inSight(camera, frame, step) : [];
     const nothing = seen.length === 0 && shown.chosen < 0;

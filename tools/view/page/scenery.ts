@@ -20,7 +20,7 @@ export interface PathPainter {
   ): void;
 }
 
-export interface Shown {
+export interface DisplayOptions {
   chosen: number; // the selected robot; -1: none
   chosenTask: number;
   heat: Float32Array | null; // by place, from 0 to 1
@@ -52,7 +52,7 @@ export class Scenery {
     });
   }
 
-  paint(camera: Camera, time: number, shown: Shown, colors: Colors, ratio: number): void {
+  paint(camera: Camera, time: number, shown: DisplayOptions, colors: Colors, ratio: number): void {
     const width = Math.round(camera.width * ratio);
     const height = Math.round(camera.height * ratio);
     if (this.canvas.width !== width) this.canvas.width = width;
@@ -118,7 +118,7 @@ export class Scenery {
 
   // Paints destinations and tasks.
   private paintPlaces(
-    c: CanvasRenderingContext2D, camera: Camera, time: number, shown: Shown, colors: Colors,
+    c: CanvasRenderingContext2D, camera: Camera, time: number, shown: DisplayOptions, colors: Colors,
   ): void {
     const { world, agents, tasks } = this.model;
     const step = world.unit * camera.scale;

@@ -10,12 +10,12 @@ import { listen } from "./gestures";
 import { Minimap } from "./minimap";
 import type { Model, Point } from "./model";
 import { Labels, type RobotPainter } from "./robots";
-import { EitherRobots } from "./robots_either";
+import { AdaptiveRobotPainter } from "./robots_adaptive";
 import { nearest, type RobotsNow } from "./robots_now";
-import { Scenery, type PathPainter, type Shown } from "./scenery";
+import { Scenery, type PathPainter, type DisplayOptions } from "./scenery";
 
 // The selection and display options of a page, as a stage needs them.
-export interface Choice {
+export interface PageState {
   readonly model: Model;
   readonly player: { readonly time: number };
   readonly chosen: number; // the selected robot; -1: none
@@ -48,7 +48,7 @@ export class Stage {
   private dirty = true; // something other than time has changed
   private step = -1; // the whole step that the scenery shows
 
-  constructor(private readonly app: Choice, private readonly scene: Scene) {
+  constructor(private readonly app: PageState, private readonly scene: Scene) {
     const { model } = app;
     const { world } = model;
     this.camera = new Camera(world.width, world.height, world.unit);
@@ -56,7 +56,7 @@ export class Stage {
     const top = el("canvas", { tabindex: 0 });
     this.canvases = [ground, plain, fast, top];
     this.scenery = new Scenery(ground, model, scene.facts);
-    this.robots = new EitherRobots(plain, fast, world);
+    this.robots = new AdaptiveRobotPainter(plain, fast, world);
     this.labels = new Labels(top, model, (robot, time) => scene.elsewhere(robot, time));
     this.minimap = new Minimap(model, this.camera, () => this.cameraMoved());
     top.setAttribute("aria-label", scene.label);
@@ -140,7 +140,7 @@ export class Stage {
     }
   }
 
-  private shown(): Shown {
+  private shown(): DisplayOptions {
     const { chosen, chosenTask, labels } = this.app;
     return { chosen, chosenTask, labels, heat: this.scene.heat(), paths: this.scene.paths };
   }

@@ -7,8 +7,8 @@ import type { Colors } from "./colors";
 import { outlined } from "./text";
 
 const kLeastCounted = 12; // pixels per step, from which on the number of tasks is shown
-const kLeastTold = 30; // pixels per step, from which on each task is listed
-const kMostTold = 3;
+const kLeastListed = 30; // pixels per step, from which on each task is listed
+const kMostListed = 3;
 
 export interface TaskState {
   index: number;
@@ -39,7 +39,7 @@ export function paintTasks(
     c.fillStyle = done ? colors.faint : colors.onTask;
     c.fillText(String(tasks.length), x, y + 0.5, 1.3 * r);
   }
-  if (step >= kLeastTold) tellTasks(c, x, y, step, tasks, color, colors);
+  if (step >= kLeastListed) paintTaskList(c, x, y, step, tasks, color, colors);
 }
 
 function paintDiamond(c: CanvasRenderingContext2D, x: number, y: number, r: number): void {
@@ -54,14 +54,14 @@ function paintDiamond(c: CanvasRenderingContext2D, x: number, y: number, r: numb
 }
 
 // Writes a line such as "2: 1 of 3" for each task, one above the other.
-function tellTasks(
+function paintTaskList(
   c: CanvasRenderingContext2D, x: number, y: number, step: number, tasks: TaskState[],
   color: string, colors: Colors,
 ): void {
   const size = Math.min(18, Math.max(9, 0.16 * step));
-  const texts = tasks.slice(0, kMostTold).map(({ index, visits, total }) =>
+  const texts = tasks.slice(0, kMostListed).map(({ index, visits, total }) =>
     `${index + 1}${total > 1 ? `: ${visits} of ${total}` : ""}`);
-  if (tasks.length > kMostTold) texts.push(`+ ${(tasks.length - kMostTold).toLocaleString("en")}`);
+  if (tasks.length > kMostListed) texts.push(`+ ${(tasks.length - kMostListed).toLocaleString("en")}`);
   c.font = `${size}px system-ui, sans-serif`;
   c.textAlign = "left";
   c.textBaseline = "bottom";

@@ -150,11 +150,11 @@ function* stepsOf(text: string, letters: string): Generator<Step> {
       yield { letter: "@", count: 1, jump: text.slice(i + 1, end) };
       i = end;
     } else if (letters.includes(c)) {
-      if (count === 0 && text[i - 1] === "0") throw new Error(`a path takes '${c}' no times`);
+      if (count === 0 && text[i - 1] === "0") throw new Error(`'0${c}' has the count 0`);
       yield { letter: c, count: count === 0 ? 1 : count, jump: "" };
       count = 0;
     } else {
-      throw new Error(`a path holds '${c}', which is no step`);
+      throw new Error(`a path contains '${c}', which is no step`);
     }
   }
   if (count !== 0) throw new Error("a path ends with a number");
@@ -226,9 +226,9 @@ export function readTrack(text: string, steps: Map<string, number>, places: numb
 export function readAngle(text: string, turnSteps: number): Angle {
   const match = /^([0-9]{1,7})([rl]?)$/.exec(text);
   const steps = match ? Number(match[1]) : NaN;
-  if (!match || !(steps < 4 * turnSteps)) throw new Error(`'${text}' is no angle`);
+  if (!match || !(steps < 4 * turnSteps)) throw new Error(`'${text}' is not a valid angle`);
   const direction = match[2] === "r" ? 1 : match[2] === "l" ? -1 : 0;
-  if ((direction === 0) !== (steps % turnSteps === 0)) throw new Error(`'${text}' is no angle`);
+  if ((direction === 0) !== (steps % turnSteps === 0)) throw new Error(`'${text}' is not a valid angle`);
   return { steps, direction };
 }
 

@@ -3,7 +3,7 @@
 // waited. For this, it simulates ghosts of the robot that leave at different times of the wait, and follows
 // each of them until it meets another robot, for at most kAhead steps.
 
-import { Crowd } from "./crowd";
+import { Occupancy } from "./occupancy";
 import { Doing, type PlanFacts } from "./facts";
 import type { Model, Plan } from "./model";
 
@@ -12,8 +12,8 @@ export interface Wait {
   begin: number;
   end: number;
   place: number;
-  for: number[]; // robots that its ghosts meet, in order of time
-  meets: number; // place where a ghost first meets a robot; -1: none
+  met: number[]; // robots that its ghosts meet, in order of time
+  firstMeetingPlace: number; // place where a ghost first meets a robot; -1: none
 }
 
 const kMostGhosts = 8; // maximum number of ghosts per wait
@@ -55,15 +55,15 @@ export class Waits {
   }
 
   private *find(): Generator<void> {
-    const crowd = new Crowd(this.plan, this.model.world.places);
+    const occupancy = new Occupancy(this.plan, this.model.world.places);
     const waiting = this.all.flatMap((wait) => this.ghostsOf(wait)).sort((a, b) => a.from - b.from);
     let next = 0;
     const ghosts: Ghost[] = [];
     for (let time = 0; next < waiting.length || ghosts.length > 0; ++time) {
-      crowd.advance(() => {});
+      occupancy.advance(() => {});
       let left = 0;
       for (let i = 0; i < ghosts.length; ++i) {
-        if (this.continues(ghosts[i], time, crowd)) ghosts[left++] = ghosts[i];
+        if (this.continues(ghosts[i], time, occupancy)) ghosts[left++] = ghosts[i];
         if (i % kGhostsAtOnce === kGhostsAtOnce - 1) yield;
       }
       ghosts.length = left;
@@ -73,17 +73,17 @@ export class Waits {
   }
 
   // Moves a ghost to `time`. Returns false if it meets a robot or has been followed for kAhead steps.
-  private continues(ghost: Ghost, time: number, crowd: Crowd): boolean {
+  private continues(ghost: Ghost, time: number, occupancy: Occupancy): boolean {
     const { wait } = ghost;
     const before = ghost.place;
     if (time + ghost.earlier > ghost.until) this.enter(ghost, ghost.run + 1);
     ghost.place += ghost.delta;
-    const other = crowd.on(ghost.place);
-    const swapped = ghost.place === before ? -1 : comingFrom(crowd, ghost.place, before);
+    const other = occupancy.on(ghost.place);
+    const swapped = ghost.place === before ? -1 : comingFrom(occupancy, ghost.place, before);
     const met = other >= 0 && other !== wait.agent ? other : swapped;
     if (met < 0 || met === wait.agent) return time - ghost.from < kAhead;
-    if (wait.meets < 0) wait.meets = ghost.place;
-    if (!wait.for.includes(met)) wait.for.push(met);
+    if (wait.firstMeetingPlace < 0) wait.firstMeetingPlace = ghost.place;
+    if (!wait.met.includes(met)) wait.met.push(met);
     return false;
   }
 
@@ -112,9 +112,9 @@ export class Waits {
 }
 
 // Returns the robot that moved from `from` to `to` in the current step; -1: none.
-function comingFrom(crowd: Crowd, from: number, to: number): number {
-  const other = crowd.on(to);
-  return other >= 0 && crowd.before[other] === from ? other : -1;
+function comingFrom(occupancy: Occupancy, from: number, to: number): number {
+  const other = occupancy.on(to);
+  return other >= 0 && occupancy.before[other] === from ? other : -1;
 }
 
 function waitsOf(plan: Plan, facts: PlanFacts, agent: number): Wait[] {
@@ -123,5 +123,5 @@ function waitsOf(plan: Plan, facts: PlanFacts, agent: number): Wait[] {
   return facts.spans[agent]
     .filter((span) => span.doing === Doing.kWaiting)
     .map(({ begin, end }) =>
-      ({ agent, begin, end, place: track.place(begin), for: [], meets: -1 }));
+      ({ agent, begin, end, place: track.place(begin), met: [], firstMeetingPlace: -1 }));
 }

@@ -150,16 +150,16 @@ function layRoad(road: Road, bend: number, xs: Float64Array, ys: Float64Array, u
   const across = length > 0
     ? { x: (-(b.y - a.y) / length) * sign, y: ((b.x - a.x) / length) * sign } : { x: 0, y: 0 };
   for (let k = 1; k < road.steps; ++k) {
-    const part = k / road.steps;
+    const fraction = k / road.steps;
     const place = road.first + k - 1;
     if (road.from === road.to) {
-      const angle = 2 * Math.PI * part; // a loop: a circle above its vertex
+      const angle = 2 * Math.PI * fraction; // a loop: a circle above its vertex
       xs[place] = a.x + unit * Math.sin(angle);
       ys[place] = a.y - unit * (1 - Math.cos(angle));
     } else {
-      const aside = bend * Math.sin(Math.PI * part);
-      xs[place] = a.x + (b.x - a.x) * part + across.x * aside;
-      ys[place] = a.y + (b.y - a.y) * part + across.y * aside;
+      const aside = bend * Math.sin(Math.PI * fraction);
+      xs[place] = a.x + (b.x - a.x) * fraction + across.x * aside;
+      ys[place] = a.y + (b.y - a.y) * fraction + across.y * aside;
     }
   }
 }

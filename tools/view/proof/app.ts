@@ -3,12 +3,12 @@
 // its proof, and the unfolded steps.
 
 import type { Model } from "../page/model";
-import type { Choice } from "../page/stage";
+import type { PageState } from "../page/stage";
 import { constraintOf, type Certificate, type Statement, type Step } from "./certificate";
 
 const kFirstRows = 60; // approximate number of visible steps at first
 
-export class ProofApp implements Choice {
+export class ProofApp implements PageState {
   readonly player = { time: 0 }; // the map always shows time 0, with all agents at their starts
   readonly labels = true;
   following = false;

@@ -19,7 +19,7 @@ export interface Constraint {
 export interface Row {
   kind: "place" | "edge" | "finish";
   numbers: number[];
-  price: number; // multiplier, in 1024ths of a step
+  multiplier: number; // in 1024ths of a step
 }
 
 // A node of a proof tree. It proves the statement under additional constraints: one side of each split above
@@ -226,13 +226,13 @@ class Reader {
 
   private row(kind: string): Row {
     const { lines } = this;
-    if (kind !== "place" && kind !== "edge" && kind !== "finish") return lines.fail("a row of prices");
+    if (kind !== "place" && kind !== "edge" && kind !== "finish") return lines.fail("a row of multipliers");
     const numbers: number[] = [];
     while (lines.hasMore) numbers.push(lines.integer());
     const most = kind === "finish" ? this.model.agents.length : this.model.world.places;
     const named = kind === "place" ? [0] : kind === "edge" ? [0, 1] : [0, 2];
     if (named.some((i) => !(numbers[i] < most))) lines.fail("existing places and agents");
-    return { kind, price: numbers.pop()!, numbers };
+    return { kind, multiplier: numbers.pop()!, numbers };
   }
 
   private agent(): number {

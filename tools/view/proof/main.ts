@@ -9,7 +9,7 @@ import { readModel } from "../page/read";
 import { Stage } from "../page/stage";
 import { ProofApp } from "./app";
 import { readCertificate } from "./certificate";
-import { Marks, priceHeat } from "./marks";
+import { Marks, multiplierHeat } from "./marks";
 import { Details } from "./panels/details";
 import { Lists } from "./panels/lists";
 import { strip } from "./panels/strip";
@@ -31,10 +31,10 @@ function begin(): void {
 
 function show(app: ProofApp): void {
   const stage = new Stage(app, {
-    ...instanceScene(app), paths: new Marks(app), label: "Where the step chosen is", heat: () => priceHeat(app),
+    ...instanceScene(app), paths: new Marks(app), label: "Where the step chosen is", heat: () => multiplierHeat(app),
   });
-  const isPriced = app.certificate.theorem.root.kind === "prices";
-  const marks: [string, string][] = isPriced ? [["heat", "prices, of all times together"]]
+  const hasMultipliers = app.certificate.theorem.root.kind === "prices";
+  const marks: [string, string][] = hasMultipliers ? [["heat", "multipliers, of all times together"]]
     : [["mark", "the place in question, with its times"], ["way", "who is concerned, as the crow flies"]];
   const legend = legendOf([["resting", "an agent's start"], ...entriesOf(app.model, []).filter(isOpen), ...marks]);
   document.body.replaceChildren(

@@ -123,12 +123,12 @@ function paintText(
 
 // Returns, for each place, the sum of its multipliers over all times, relative to the maximum; null if the
 // step has no multipliers. A multiplier of a move counts half at each end.
-export function priceHeat({ model, step }: ProofApp): Float32Array | null {
+export function multiplierHeat({ model, step }: ProofApp): Float32Array | null {
   if (step.kind !== "prices") return null;
   const heat = new Float32Array(model.world.places);
-  for (const { kind, numbers, price } of step.rows) {
-    if (kind === "place") heat[numbers[0]] += price;
-    if (kind === "edge") for (const place of numbers.slice(0, 2)) heat[place] += price / 2;
+  for (const { kind, numbers, multiplier } of step.rows) {
+    if (kind === "place") heat[numbers[0]] += multiplier;
+    if (kind === "edge") for (const place of numbers.slice(0, 2)) heat[place] += multiplier / 2;
   }
   const most = heat.reduce((a, b) => Math.max(a, b), 0);
   return most > 0 ? heat.map((value) => value / most) : heat;

@@ -51,7 +51,7 @@ export function noteText({ kind, lemmas, leaves, rows }: Step): string {
   switch (kind) {
     case "leaf": return lemmas.length === 0 ? "individual costs" : lemmasText(lemmas);
     case "joint": return "joint search";
-    case "prices": return plural(rows.length, "price");
+    case "prices": return plural(rows.length, "multiplier");
     default: return leavesText(leaves);
   }
 }
@@ -77,7 +77,7 @@ export function theoremText({ theorem, following }: Certificate): string {
 export function howText({ theorem, lemmas }: Certificate): string {
   const { root, steps } = theorem;
   if (root.kind === "joint") return "proven by a search of all agents' joint paths";
-  if (root.kind === "prices") return `proven by ${plural(root.rows.length, "price")} of places, moves and finish times`;
+  if (root.kind === "prices") return `proven by ${plural(root.rows.length, "multiplier")} of places, moves and finish times`;
   const splits = steps.filter(({ sides }) => sides.length > 0).length;
   return `proven by ${plural(splits, "split")}, ${leavesText(root.leaves)} and ${plural(lemmas.length, "lemma")}`;
 }
@@ -86,7 +86,7 @@ export function howText({ theorem, lemmas }: Certificate): string {
 export function planText(cost: number, bound: number): string {
   if (cost < bound) return "which is less: one of the two is wrong";
   if (cost === bound) return "so it is optimal";
-  if (bound === 0) return "which does not tell how far it is from the best";
+  if (bound === 0) return "which gives no gap";
   return `so it costs at most ${((100 * (cost - bound)) / bound).toFixed(2)} % more than the best`;
 }
 
@@ -107,7 +107,7 @@ export function whyText(model: Model, following: boolean, step: Step): string {
   const areTwo = a.agent !== b.agent;
   const isOneTime = a.begin === a.end && b.begin === b.end;
   if (step.kind === "later")
-    return `Otherwise ${both} together cost at most ${numberText(a.end + b.end)}, and lemma ${step.lemmas[0]} says that they cost more.`;
+    return `Otherwise ${both} together cost at most ${numberText(a.end + b.end)}, and by lemma ${step.lemmas[0]} they cost more.`;
   switch (`${a.kind} ${b.kind}`) {
     case "bar bar":
       if (!areTwo || !isOneTime || place !== from) return "";
@@ -138,8 +138,8 @@ export function closedText(model: Model, { agents, bound }: Statement, step: Ste
       return `By a search of all joint paths of ${agentsText(model, agents)} that satisfy the constraints: ` +
         (bound === Infinity ? "there are none without conflict." : `none without conflict costs less than ${numberText(bound)}.`);
     case "prices":
-      return "By prices of places, moves and pairs of finish times, each of which at most one agent uses: the least costs of " +
-        "the agents including prices, minus the sum of all prices, are a lower bound on the cost of all agents.";
+      return "By multipliers of places, moves and pairs of finish times, each of which at most one agent uses: the least costs of " +
+        "the agents including multipliers, minus the sum of all multipliers, are a lower bound on the cost of all agents.";
     default:
       if (step.lemmas.length > 0)
         return `By the agents' individual costs, and the excess by ${lemmasText(step.lemmas)}: ${much}.`;

@@ -93,17 +93,17 @@ export class Chart {
   private point(event: PointerEvent): void {
     if (!this.contents) return;
     const box = this.picture.firstElementChild!.getBoundingClientRect();
-    const part = (event.clientX - box.left - kLeft) / (box.width - kLeft - kRight);
-    this.time = this.timeAt(Math.min(1, Math.max(0, part)));
+    const fraction = (event.clientX - box.left - kLeft) / (box.width - kLeft - kRight);
+    this.time = this.timeAt(Math.min(1, Math.max(0, fraction)));
     this.read(this.time);
   }
 
   // Returns the time at a position on the time axis (0 to 1), by bisection, because Scale has no inverse.
-  private timeAt(part: number): number {
+  private timeAt(fraction: number): number {
     let [least, most] = [0, this.contents!.end];
     for (let i = 0; i < 40; ++i) {
       const middle = (least + most) / 2;
-      if (this.contents!.x.at(middle) < part) least = middle;
+      if (this.contents!.x.at(middle) < fraction) least = middle;
       else most = middle;
     }
     return most;

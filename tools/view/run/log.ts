@@ -63,18 +63,18 @@ export class Log {
       case "note":
       case "warning":
       case "infeasible":
-        this.tell(kind, data, data.key("text").text());
+        this.addMoment(kind, data, data.key("text").text());
         break;
       case "resumed":
-        this.tell(kind, data, `continues after ${data.key("seconds_before").number()} s of earlier runs`);
+        this.addMoment(kind, data, `continues after ${data.key("seconds_before").number()} s of earlier runs`);
         break;
       case "checkpoint":
-        this.tell(kind, data, checkpointText(data));
+        this.addMoment(kind, data, checkpointText(data));
         break;
     }
   }
 
-  private tell(kind: string, data: Value, text: string): void {
+  private addMoment(kind: string, data: Value, text: string): void {
     const time = data.key("time_s");
     this.run.moments.push({ time: time.isThere ? time.number() : null, kind, text });
   }

@@ -26,28 +26,28 @@ class Page {
     moments: el("div"), facts: el("div"), noTree: el("p", { class: "faint" }),
   };
   private readonly time = el("button", { type: "button", click: () => this.toggleTime() }, "logarithmic time");
-  private readonly parts: Record<string, HTMLElement> = {};
+  private readonly sections: Record<string, HTMLElement> = {};
   private isLogarithmic: boolean | null = null; // null: depends on the length of the run
   private lastSign = performance.now();
 
   constructor(private readonly isLive: boolean) {
-    const part = (name: string, title: string, ...content: (Node | string)[]) =>
-      this.parts[name] = el("section", {}, el("h2", {}, title), ...content);
+    const section = (name: string, title: string, ...content: (Node | string)[]) =>
+      this.sections[name] = el("section", {}, el("h2", {}, title), ...content);
     document.body.append(
       el("header", {}, this.title, this.verdict, this.state, this.failure),
       el("main", {},
-        part("bound", "Quality of the plan", legend("bound"), this.charts.bound.element, this.time,
+        section("bound", "Quality of the plan", legend("bound"), this.charts.bound.element, this.time,
           el("div", { class: "pair" }, this.places.sources, this.places.bounds)),
-        part("tree", "The search tree", treeLegend(), this.tree.element),
-        part("noTree", "The search tree", this.places.noTree),
-        part("work", "Work of the search", el("div", { class: "pair" }, this.places.splits, this.places.work)),
-        part("nodes", "Nodes", legend("nodes"), this.charts.nodes.element),
-        part("memory", "Memory", legend("memory"), this.charts.memory.element),
-        part("ranks", "Ranks", this.places.ranks),
-        part("moments", "Events", this.places.moments),
-        part("facts", "The run", this.places.facts)));
+        section("tree", "The search tree", treeLegend(), this.tree.element),
+        section("noTree", "The search tree", this.places.noTree),
+        section("work", "Effort of the search", el("div", { class: "pair" }, this.places.splits, this.places.work)),
+        section("nodes", "Nodes", legend("nodes"), this.charts.nodes.element),
+        section("memory", "Memory", legend("memory"), this.charts.memory.element),
+        section("ranks", "Ranks", this.places.ranks),
+        section("moments", "Events", this.places.moments),
+        section("facts", "The run", this.places.facts)));
     window.addEventListener("resize", () => this.paint());
-    setInterval(() => this.tellState(), 1000);
+    setInterval(() => this.showState(), 1000);
   }
 
   begin(): void {
@@ -66,7 +66,7 @@ class Page {
     this.show();
   }
 
-  tellState(isAnswering = true): void {
+  showState(isAnswering = true): void {
     if (this.log.run.summary) return setText(this.state, "The run has ended.");
     if (!this.isLive)
       return setText(this.state, "The log is incomplete: the run had not ended, or it was killed.");
@@ -78,8 +78,8 @@ class Page {
 
   private show(): void {
     const { run } = this.log;
-    this.tellState();
-    for (const part of Object.values(this.parts)) part.hidden = run.header === null;
+    this.showState();
+    for (const section of Object.values(this.sections)) section.hidden = run.header === null;
     if (!run.header) return;
     const name = run.header.instance.split("/").pop()!;
     setText(this.title, name);
@@ -100,14 +100,14 @@ class Page {
     put(this.places.facts, factsList(run));
     put(this.places.moments, momentsList(run));
     put(this.places.ranks, ranksTable(run));
-    this.parts.moments.hidden = run.moments.length === 0;
-    this.parts.ranks.hidden = !this.places.ranks.firstChild;
-    this.parts.tree.hidden = run.roots.length === 0;
-    this.parts.noTree.hidden = run.roots.length > 0;
+    this.sections.moments.hidden = run.moments.length === 0;
+    this.sections.ranks.hidden = !this.places.ranks.firstChild;
+    this.sections.tree.hidden = run.roots.length === 0;
+    this.sections.noTree.hidden = run.roots.length > 0;
     setText(this.places.noTree, this.places.ranks.firstChild
       ? "The ranks hold the nodes; the log does not list them."
       : "The log does not list nodes. With --log-tree 1000 it lists the first 1000, and this page draws them.");
-    this.parts.memory.hidden = run.counts.length === 0;
+    this.sections.memory.hidden = run.counts.length === 0;
     if (run.roots.length > 0) this.tree.show(run);
   }
 
@@ -163,11 +163,11 @@ function begin(): void {
   const isLive = document.body.hasAttribute("data-follow");
   const page = new Page(isLive);
   if (!isLive) return page.add(text);
-  page.tellState();
+  page.showState();
   void new Follower({
     begin: () => page.begin(),
     add: (more) => page.add(more),
-    state: (isAnswering) => page.tellState(isAnswering),
+    state: (isAnswering) => page.showState(isAnswering),
   }).run();
 }
 

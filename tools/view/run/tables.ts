@@ -67,7 +67,7 @@ export function workTable(run: Run): HTMLElement {
   const of = (name: string) => counts.get(name) ?? 0;
   const known = (asked: string, had: string) => of(asked) > 0
     ? `${number(of(asked))}, ${Math.round((100 * of(had)) / of(asked))} % from the cache` : "none";
-  return table(["Work", ""], [
+  return table(["Effort", ""], [
     ["Branching: costs of a robot under one more constraint", known("branching_cost_queries", "branching_cost_hits")],
     ["MDDs (all optimal paths of a robot)", known("mdd_queries", "mdd_hits")],
     ["Path searches for one robot", number(of("low_level_calls"))],

@@ -18,7 +18,7 @@ export class TreeView {
     "aria-label": "The search tree: arrow keys go to parent, children and neighbours, n and p to the next and previous expansion" });
   private readonly details = el("div", { class: "node", "aria-live": "polite" });
   private readonly slider = el("input", { type: "range", min: 0, value: 0, "aria-label": "Expansions shown" });
-  private readonly told = el("span", { class: "faint" });
+  private readonly progress = el("span", { class: "faint" });
   private placed = new Map<TreeNode, Placed>();
   private run: Run | null = null;
   private chosen: TreeNode | null = null;
@@ -38,7 +38,7 @@ export class TreeView {
         button("Fit", "Show the whole tree", () => this.fit()),
         button("‹", "Previous expansion", () => this.play(this.shown - 1)),
         this.slider,
-        button("›", "Next expansion", () => this.play(this.shown + 1)), this.told),
+        button("›", "Next expansion", () => this.play(this.shown + 1)), this.progress),
       this.canvas, this.details);
     this.slider.addEventListener("input", () => this.play(Number(this.slider.value)));
     this.listen();
@@ -63,22 +63,22 @@ export class TreeView {
     const before = this.shown;
     this.shown = Math.min(this.run.expanded.length, Math.max(0, shown));
     this.slider.value = String(this.shown);
-    setText(this.told, this.extent());
+    setText(this.progress, this.extent());
     if (this.shown !== before && this.shown > 0) this.chosen = this.run.expanded[this.shown - 1];
-    this.tell();
+    this.describeChosen();
     this.paint();
   }
 
   private extent(): string {
     const { expanded, rows } = this.run!;
     const all = rows.length > 0 ? rows[rows.length - 1].nodes : 0;
-    const told = `${number(this.shown)} of ${number(expanded.length)} expansions`;
-    return all > expanded.length ? `${told}, the first of ${number(all)}` : told;
+    const text = `${number(this.shown)} of ${number(expanded.length)} expansions`;
+    return all > expanded.length ? `${text}, the first of ${number(all)}` : text;
   }
 
   // --- the selected node ---
 
-  private tell(): void {
+  private describeChosen(): void {
     const node = this.chosen;
     if (!node) return this.details.replaceChildren();
     const lines = [
@@ -112,11 +112,11 @@ export class TreeView {
 
   resize(): void {
     if (this.isFitted) this.fit();
-    else this.take();
+    else this.resizeCanvas();
   }
 
   // Adapts the resolution of the canvas to its displayed size, and paints it.
-  private take(): void {
+  private resizeCanvas(): void {
     const ratio = window.devicePixelRatio || 1;
     const width = this.canvas.clientWidth;
     const height = this.canvas.clientHeight;
@@ -139,7 +139,7 @@ export class TreeView {
     this.x = (right / 2) * kColumn;
     this.y = (bottom / 2) * this.row;
     this.isFitted = true;
-    this.take();
+    this.resizeCanvas();
   }
 
   private zoomBy(factor: number): void {
@@ -242,7 +242,7 @@ export class TreeView {
 
   private choose(node: TreeNode): void {
     this.chosen = node;
-    this.tell();
+    this.describeChosen();
     this.paint();
   }
 

@@ -34,7 +34,7 @@ export class Details {
         : chosenTask >= 0 ? this.task(chosenTask) : this.nothing()));
     }
     this.follow.setAttribute("aria-pressed", String(following));
-    if (chosen >= 0) this.tell(chosen);
+    if (chosen >= 0) this.describe(chosen);
   }
 
   // Returns the number of visits, by the selected robot or to the selected task, in the log so far.
@@ -46,7 +46,7 @@ export class Details {
     return app.chosenTask >= 0 ? app.tasks[app.chosenTask].times.length : 0;
   }
 
-  private tell(agent: number): void {
+  private describe(agent: number): void {
     const { app } = this;
     const { time } = app.player;
     const completed = app.drive.actionsAt(agent, time);
@@ -62,7 +62,8 @@ export class Details {
     const visits = app.order.visits(agent).map(({ task, action }) =>
       this.visit(app.visitTime(agent, action), `${task + 1}: ${app.model.tasks[task].name}`));
     return [head(app, app.model.agents[agent].name, this.follow), this.now, this.progress,
-      this.late,      ...(visits.length > 0 ? [el("h4", {}, "Visits"), el("ul", { class: "moments" }, ...visits)] : [])];
+      this.late,
+      ...(visits.length > 0 ? [el("h4", {}, "Visits"), el("ul", { class: "moments" }, ...visits)] : [])];
   }
 
   private task(task: number): HTMLElement[] {

@@ -17,7 +17,7 @@ export class Strip {
   constructor(private readonly app: DriveApp) {
     const { model } = app;
     this.element = el("header", { class: "strip" },
-      el("h1", {}, `${model.instance}: a drive`),
+      el("h1", {}, `${model.instance}: an execution`),
       el("span", { class: "faint" },
         `${plural(model.agents.length, "robot")}, ${plural(model.tasks.length, "task")}`),
       this.state, this.counts, this.help, this.failure);
@@ -44,10 +44,10 @@ export class Strip {
 
   private stateNow(): string {
     const { drive, player } = this.app;
-    if (drive.isOver) return "The drive has ended.";
+    if (drive.isOver) return "The execution has ended.";
     if (!player.isFollowed) return "The log ends before all robots are done.";
     if (!this.isAnswering) return "The server no longer responds.";
-    if (drive.order === "") return "Waiting for the drive to begin.";
-    return player.live ? "Live." : "The drive continues; this is an earlier moment.";
+    if (drive.order === "") return "Waiting for the execution to start.";
+    return player.live ? "Live." : "The execution continues; this is an earlier moment.";
   }
 }

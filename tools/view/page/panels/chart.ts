@@ -2,7 +2,7 @@
 // Gantt chart of the activities: a row for each robot, with a lane for each plan, and time from left to
 // right. A click or drag in the chart sets the time. A click on a name selects the robot.
 
-import type { App, Viewed } from "../app";
+import type { App, PlanView } from "../app";
 import type { Colors } from "../colors";
 import { el, setText } from "../dom";
 import { Doing } from "../facts";
@@ -53,7 +53,7 @@ export class Chart {
     const { robot, time } = this.at(event);
     if (event.buttons & 1 && this.element.hasPointerCapture(event.pointerId) && time !== null)
       this.app.go(time);
-    this.element.title = robot < 0 ? "" : this.tellOf(robot, time);
+    this.element.title = robot < 0 ? "" : this.describeRow(robot, time);
   }
 
   private scroll(event: WheelEvent): void {
@@ -73,11 +73,11 @@ export class Chart {
     const robot = index >= 0 && index < rows ? first + index : -1;
     const x = event.clientX - box.left - left;
     if (x < 0 && !this.element.hasPointerCapture(event.pointerId)) return { robot, time: null };
-    const part = Math.min(1, Math.max(0, x / width));
-    return { robot, time: Math.round(part * this.app.player.end) };
+    const fraction = Math.min(1, Math.max(0, x / width));
+    return { robot, time: Math.round(fraction * this.app.player.end) };
   }
 
-  private tellOf(robot: number, time: number | null): string {
+  private describeRow(robot: number, time: number | null): string {
     const { name } = this.app.model.agents[robot];
     if (time === null) return name;
     const what = this.app.viewed.map(({ facts }) => {
@@ -117,7 +117,7 @@ export class Chart {
     this.canvas.height = Math.round(height * ratio);
     const c = this.canvas.getContext("2d")!;
     c.scale(ratio, ratio);
-    this.lay(c, width, height);
+    this.computeLayout(c, width, height);
     const { first, row, rows } = this.layout;
     const lanes = this.app.viewed;
     const gap = row >= 5 ? 1 : 0;
@@ -134,7 +134,7 @@ export class Chart {
   }
 
   // Computes the layout: all robots if there is enough height for each, otherwise some of them.
-  private lay(c: CanvasRenderingContext2D, width: number, height: number): void {
+  private computeLayout(c: CanvasRenderingContext2D, width: number, height: number): void {
     const lanes = this.app.viewed.length;
     const count = this.app.model.agents.length;
     const rows = Math.min(count, Math.max(1, Math.floor(height / (kLeastLane * lanes))));
@@ -149,7 +149,7 @@ export class Chart {
   }
 
   private paintLane(
-    c: CanvasRenderingContext2D, { checker, facts, plan }: Viewed, robot: number, y: number,
+    c: CanvasRenderingContext2D, { checker, facts, plan }: PlanView, robot: number, y: number,
     height: number, colors: Colors,
   ): void {
     if (plan.agents[robot].track.isEmpty) return;

@@ -12,18 +12,18 @@ export function comparedDetails(app: App, agent: number): HTMLElement[] {
   const { comparison } = app;
   if (!comparison) return [];
   const found = comparison.all.find((difference) => difference.agent === agent);
-  const told = found ? differenceText(app, found)
+  const text = found ? differenceText(app, found)
     : el("p", { class: "faint" }, "It behaves the same in both plans.");
-  return [told, ...visitsInBoth(app, agent)];
+  return [text, ...visitsInBoth(app, agent)];
 }
 
-function differenceText(app: App, { by, orders, parts }: Difference): HTMLElement {
-  if (Number.isNaN(by)) return el("p", {}, "One of the plans has no path for this robot.");
-  const cost = by === 0 ? "It costs the same in both plans."
-    : `It costs ${signed(by)} in the second plan.`;
-  const order = orders ? " It visits its tasks in another order." : "";
+function differenceText(app: App, { costChange, hasOtherOrder, firstDifference }: Difference): HTMLElement {
+  if (Number.isNaN(costChange)) return el("p", {}, "One of the plans has no path for this robot.");
+  const cost = costChange === 0 ? "It costs the same in both plans."
+    : `It costs ${signed(costChange)} in the second plan.`;
+  const order = hasOtherOrder ? " It visits its tasks in a different order." : "";
   return el("p", {}, `${cost}${order} They differ from step `,
-    momentButton(parts, () => app.go(parts)), " on. Dashed: its path in the other plan.");
+    momentButton(firstDifference, () => app.go(firstDifference)), " on. Dashed: its path in the other plan.");
 }
 
 // Returns a table of the visits in the order of the first plan. Shows the position of a visit in the order of

@@ -30,41 +30,41 @@ export class Differences {
   }
 
   private summary(): string {
-    const { all, by } = this.comparison;
+    const { all, costChange } = this.comparison;
     const total = plural(this.app.model.agents.length, "robot");
     const verb = all.length === 1 ? "differs" : "differ";
     const robots = `${all.length.toLocaleString("en")} of ${total} ${verb}.`;
     const [first, second] = this.app.viewed.map(({ plan }) => plan.name);
-    if (Number.isNaN(by)) return `${robots} The costs cannot be compared because paths are missing.`;
-    if (by === 0) return `${robots} Both plans cost the same.`;
-    const more = `${Math.abs(by).toLocaleString("en")} ${by > 0 ? "more" : "less"}`;
+    if (Number.isNaN(costChange)) return `${robots} The costs cannot be compared because paths are missing.`;
+    if (costChange === 0) return `${robots} Both plans cost the same.`;
+    const more = `${Math.abs(costChange).toLocaleString("en")} ${costChange > 0 ? "more" : "less"}`;
     return `${robots} ${second} costs ${more} than ${first}.`;
   }
 
   rows(): Row[] {
     const { app } = this;
     return sorted(this.comparison.all, this.order.value as Order).map((difference) => {
-      const { agent, parts } = difference;
+      const { agent, firstDifference } = difference;
       const { id, name } = app.model.agents[agent];
-      const go = () => app.show(parts, agent);
+      const go = () => app.show(firstDifference, agent);
       return {
         key: id.toLowerCase(),
         text: name,
         note: () => costsText(difference),
         act: () => app.choose(agent),
-        more: Number.isFinite(parts)
-          ? momentButton(parts, go, `Go to step ${parts}, the first difference`) : undefined,
+        more: Number.isFinite(firstDifference)
+          ? momentButton(firstDifference, go, `Go to step ${firstDifference}, the first difference`) : undefined,
       };
     });
   }
 }
 
 function sorted(all: Difference[], order: Order): Difference[] {
-  const size = ({ by }: Difference) => (Number.isNaN(by) ? Infinity : Math.abs(by));
+  const size = ({ costChange }: Difference) => (Number.isNaN(costChange) ? Infinity : Math.abs(costChange));
   switch (order) {
     case "cost":
-      return [...all].sort((a, b) => compareNumbers(size(b), size(a)) || a.parts - b.parts);
-    case "moment": return [...all].sort((a, b) => compareNumbers(a.parts, b.parts));
+      return [...all].sort((a, b) => compareNumbers(size(b), size(a)) || a.firstDifference - b.firstDifference);
+    case "moment": return [...all].sort((a, b) => compareNumbers(a.firstDifference, b.firstDifference));
     case "name": return all;
   }
 }
@@ -74,12 +74,14 @@ function compareNumbers(a: number, b: number): number {
   return a < b ? -1 : a > b ? 1 : 0;
 }
 
-// Returns a text such as "96 → 97 (+1), other order".
-export function costsText({ costs, by, orders }: Difference): string {
+// Returns a text such as "96 → 97 (+1), different order".
+export function costsText({ costs, costChange, hasOtherOrder }: Difference): string {
   const [a, b] = costs.map((cost) => (Number.isNaN(cost) ? "no path" : String(cost)));
-  return `${a} → ${b}${Number.isNaN(by) ? "" : ` (${signed(by)})`}${orders ? ", other order" : ""}`;
+  const change = Number.isNaN(costChange) ? "" : ` (${signed(costChange)})`;
+  return `${a} → ${b}${change}${hasOtherOrder ? ", different order" : ""}`;
 }
 
-export function signed(by: number): string {
-  return by > 0 ? `+${by.toLocaleString("en")}` : by < 0 ? `−${(-by).toLocaleString("en")}` : "±0";
+export function signed(difference: number): string {
+  const sign = difference > 0 ? "+" : difference < 0 ? "−" : "±";
+  return sign + Math.abs(difference).toLocaleString("en");
 }

@@ -2,9 +2,9 @@
 // Heading of the details: the name of the selected object, and a button to clear the selection.
 
 import { el, setText } from "../dom";
-import type { Choice } from "../stage";
+import type { PageState } from "../stage";
 
-export function head(app: Pick<Choice, "choose">, title: string, ...buttons: HTMLElement[]): HTMLElement {
+export function head(app: Pick<PageState, "choose">, title: string, ...buttons: HTMLElement[]): HTMLElement {
   const close = el("button", {
     type: "button", "aria-label": "Clear selection", title: "Clear selection (Esc)",
     click: () => app.choose(-1),

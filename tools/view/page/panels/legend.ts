@@ -10,7 +10,7 @@ type Entry = [string, string]; // CSS class and text
 
 const kRobots: Entry[] = [
   ["moving", "moving"], ["waiting", "waiting"], ["working", "at work"], ["resting", "at rest"],
-  ["collision", "collision or wrong"],
+  ["collision", "collision or violation"],
 ];
 const kTasks: Entry[] = [
   ["task", "open task"], ["task begun", "begun"], ["task done", "done"],

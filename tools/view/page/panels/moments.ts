@@ -13,8 +13,8 @@ export interface Moment {
 }
 
 // Creates the list. Calls `tell` only for the items that it shows.
-export function moments<T>(app: App, things: T[], tell: (thing: T) => Moment): HTMLElement {
-  const items = things.slice(0, kMost).map(tell).map(({ time, text }) =>
+export function moments<T>(app: App, things: T[], describe: (thing: T) => Moment): HTMLElement {
+  const items = things.slice(0, kMost).map(describe).map(({ time, text }) =>
     el("li", {},
       Number.isFinite(time)
         ? momentButton(time, () => app.go(Math.max(0, time)))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Details of the selected robot: its current activity, its visits in order, and its waits with their causes.
 
-import { violationsOf, type App, type Viewed } from "../app";
+import { violationsOf, type App, type PlanView } from "../app";
 import { el, plural, setText } from "../dom";
 import { waitText } from "../events";
 import { Doing, visitsOf, type Span, type Visit } from "../facts";
@@ -12,7 +12,7 @@ import { moments, type Moment } from "./moments";
 export class RobotDetails {
   readonly elements: HTMLElement[];
   private readonly follow: HTMLElement;
-  private readonly now: { viewed: Viewed; element: HTMLElement }[] = [];
+  private readonly now: { viewed: PlanView; element: HTMLElement }[] = [];
 
   constructor(private readonly app: App, private readonly agent: number) {
     const { name, turnSteps } = app.model.agents[agent];
@@ -46,7 +46,7 @@ export class RobotDetails {
     for (const { viewed, element } of this.now) setText(element, this.doingNow(viewed));
   }
 
-  private plan(viewed: Viewed): HTMLElement[] {
+  private plan(viewed: PlanView): HTMLElement[] {
     const { model } = this.app;
     const { plan, facts, waits } = viewed;
     const title = this.app.viewed.length > 1 ? [el("h3", {}, plan.name)] : [];
@@ -69,16 +69,16 @@ export class RobotDetails {
     ];
   }
 
-  private visits({ plan }: Viewed): Visit[] {
+  private visits({ plan }: PlanView): Visit[] {
     const { model } = this.app;
     return visitsOf(model, plan.agents[this.agent], model.agents[this.agent]);
   }
 
   private list<T>(
-    title: string, things: T[], tell: (thing: T) => Moment, kind = "",
+    title: string, things: T[], describe: (thing: T) => Moment, kind = "",
   ): HTMLElement[] {
     if (things.length === 0) return [];
-    return [el("h4", { class: kind }, title), moments(this.app, things, tell)];
+    return [el("h4", { class: kind }, title), moments(this.app, things, describe)];
   }
 
   // Returns the entry of a visit. Its time is that of the visit or, if the task has a duration, the start of
@@ -90,7 +90,7 @@ export class RobotDetails {
     return { time: begin, text: duration > 0 ? `${what}, at work until ${time}` : what };
   }
 
-  private doingNow(viewed: Viewed): string {
+  private doingNow(viewed: PlanView): string {
     const step = Math.floor(this.app.player.time);
     const span = viewed.facts.spans[this.agent].find((s) => s.end > step);
     const where = this.app.model.world.place(viewed.plan.agents[this.agent].track.place(step));

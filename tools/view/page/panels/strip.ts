@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The line at the top: the instance and, for each plan, its cost, its claims and the verdict of the page.
 
-import type { App, Viewed } from "../app";
+import type { App, PlanView } from "../app";
 import { el, plural, setText } from "../dom";
 import type { Plan } from "../model";
 import { signed } from "./differences";
 
 export class Strip {
   readonly element: HTMLElement;
-  private readonly verdicts: { viewed: Viewed; element: HTMLElement }[] = [];
+  private readonly verdicts: { viewed: PlanView; element: HTMLElement }[] = [];
 
   constructor(private readonly app: App) {
     const { model } = app;
@@ -41,16 +41,16 @@ export class Strip {
 
   // Returns the difference between the costs of the second and the first plan, as computed by the page; empty
   // for the first plan.
-  private difference(viewed: Viewed | undefined): string {
+  private difference(viewed: PlanView | undefined): string {
     const { comparison } = this.app;
     if (!comparison || viewed !== this.app.viewed[1]) return "";
-    const { by, costs } = comparison;
-    if (Number.isNaN(by)) return "";
-    if (costs[0] === 0 || by === 0) return ` (${signed(by)})`;
-    return ` (${signed(by)}, ${signed(Number(((100 * by) / costs[0]).toFixed(2)))} %)`;
+    const { costChange, costs } = comparison;
+    if (Number.isNaN(costChange)) return "";
+    if (costs[0] === 0 || costChange === 0) return ` (${signed(costChange)})`;
+    return ` (${signed(costChange)}, ${signed(Number(((100 * costChange) / costs[0]).toFixed(2)))} %)`;
   }
 
-  private verdict(plan: Plan, viewed: Viewed | undefined): HTMLElement {
+  private verdict(plan: Plan, viewed: PlanView | undefined): HTMLElement {
     if (plan.agents.length === 0) return el("span", { class: "verdict" }, "no plan in this file");
     if (!viewed) return el("span", { class: "faint" }, "not shown: the page shows two plans");
     const element = el("span", { class: "verdict", role: "status" }, "checking …");
@@ -60,7 +60,7 @@ export class Strip {
 }
 
 // Returns the cost that the page has computed; undefined if a path is missing.
-function foundCost(viewed: Viewed | undefined): number | undefined {
+function foundCost(viewed: PlanView | undefined): number | undefined {
   if (!viewed || viewed.plan.agents.some(({ track }) => track.isEmpty)) return undefined;
   return viewed.facts.cost;
 }
@@ -78,7 +78,7 @@ function cell(name: string, value: string | undefined, more = ""): HTMLElement {
     more === "" ? null : el("b", {}, more));
 }
 
-function showVerdict(element: HTMLElement, { checker }: Viewed): void {
+function showVerdict(element: HTMLElement, { checker }: PlanView): void {
   const found = checker.violations.length;
   const text = found > 0
     ? `✗ ${plural(found, "problem")}${checker.done ? "" : " so far"}`

@@ -13,8 +13,8 @@ export function taskDetails(app: App, index: number): HTMLElement[] {
   const rows = app.viewed.flatMap(({ facts, plan }) => {
     const { agents, times } = facts.tasks[index];
     const title = app.viewed.length > 1 ? [el("h3", {}, plan.name)] : [];
-    const tell = (i: number) => ({ time: times[i], text: model.agents[agents[i]].name });
-    return [...title, moments(app, [...times.keys()], tell)];
+    const describe = (i: number) => ({ time: times[i], text: model.agents[agents[i]].name });
+    return [...title, moments(app, [...times.keys()], describe)];
   });
   const who = task.duration > 0 ? "Work ends, by" : "Visited, by";
   const order = task.agents.length > 1 ? " (in this order)" : "";

@@ -29,7 +29,7 @@ export class Tree {
     const { rows } = this.app;
     const isSame = rows.length === this.rows.length && rows.every((step, i) => step === this.rows[i]);
     if (!isSame) this.make(rows);
-    this.rows.forEach((step, i) => this.dress(step, this.elements[i]));
+    this.rows.forEach((step, i) => this.updateRow(step, this.elements[i]));
     if (this.app.step === this.shown) return;
     this.shown = this.app.step;
     this.bringIntoSight(this.elements[this.rows.indexOf(this.shown)]);
@@ -72,7 +72,7 @@ export class Tree {
     return row;
   }
 
-  private dress(step: Step, row: HTMLElement): void {
+  private updateRow(step: Step, row: HTMLElement): void {
     const { app } = this;
     const isChosen = step === app.step;
     row.setAttribute("aria-selected", String(isChosen));

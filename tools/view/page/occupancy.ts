@@ -8,7 +8,7 @@ export type ReportCollision = (kind: "vertex" | "swap", time: number, a: number,
 
 const kNever = 0x7fffffff;
 
-export class Crowd {
+export class Occupancy {
   readonly here: Int32Array; // place by agent; -1: no path
   readonly before: Int32Array; // `here` one step earlier
   private readonly delta: Int32Array; // by agent: change of place per step

@@ -14,7 +14,7 @@ import type { RobotsNow } from "./robots_now";
 const kSlow = 6; // milliseconds per frame, above which the canvas takes too long
 const kFrames = 30; // number of frames whose mean time is compared with kSlow
 
-export class EitherRobots implements RobotPainter {
+export class AdaptiveRobotPainter implements RobotPainter {
   private painter: RobotPainter;
   private isSettled = false;
   private frames = 0;
