@@ -7,17 +7,17 @@ namespace grove::detail {
 
 MddCache::Set MddInterner::one_of(const MddCache::Set& set) {
   const std::uint64_t hash = set->hash();
-  const auto [first, end] = sets_.equal_range(hash);
+  const auto [first, end] = mdds_.equal_range(hash);
   for (auto at = first; at != end; ++at)
     if (auto other = at->second.lock(); other && *other == *set) return other;
-  if (sets_.size() >= cleanup_size_) forget_unused();
-  sets_.emplace(hash, set);
+  if (mdds_.size() >= cleanup_size_) forget_unused();
+  mdds_.emplace(hash, set);
   return set;
 }
 
 void MddInterner::forget_unused() {
-  std::erase_if(sets_, [](const auto& entry) { return entry.second.expired(); });
-  cleanup_size_ = 2 * sets_.size() + 1000;
+  std::erase_if(mdds_, [](const auto& entry) { return entry.second.expired(); });
+  cleanup_size_ = 2 * mdds_.size() + 1000;
 }
 
 void SimulatedWorker::begin(double now, Expander& expander) {
@@ -28,8 +28,8 @@ void SimulatedWorker::begin(double now, Expander& expander) {
   expander.swap_cache(agent_caches_);
   worker_.perform(*turn_, expander);
   expander.swap_cache(agent_caches_);
-  for (auto& [id, set] : turn_->found.sets)
-    if (set.use_count() == 1) set = sets_.one_of(set);  // just built by this item
+  for (auto& [id, set] : turn_->found.mdds)
+    if (mdd.use_count() == 1) mdd = mdds_.one_of(mdd);  // just built by this item
   // Publishing here, before the simulated end of the item, is not too early: a simulated rank has
   // only one worker, so no other worker of the rank can read the results.
   Worker::publish(*turn_);

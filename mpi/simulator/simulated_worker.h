@@ -23,12 +23,12 @@ class MddInterner {
   // returns `set`.
   MddCache::Set one_of(const MddCache::Set& set);
 
-  std::size_t size() const { return sets_.size(); }
+  std::size_t size() const { return mdds_.size(); }
 
  private:
   void forget_unused();
 
-  std::unordered_multimap<std::uint64_t, std::weak_ptr<const Mdd>> sets_;  // by hash
+  std::unordered_multimap<std::uint64_t, std::weak_ptr<const Mdd>> mdds_;  // by hash
   std::size_t cleanup_size_ = 1000;
 };
 
@@ -46,7 +46,7 @@ class SimulatedWorker {
 
   // All arguments must outlive this object. `sets` is shared by all workers.
   SimulatedWorker(Worker& worker, const Machine& machine, MddInterner& sets)
-      : worker_(worker), machine_(machine), sets_(sets) {}
+      : worker_(worker), machine_(machine), mdds_(sets) {}
 
   // Starts a work item if the worker has one; then busy() is true until end() or abandon().
   // `expander` can be any expander of the same problem; it is used as if it were this worker's own.
@@ -65,7 +65,7 @@ class SimulatedWorker {
  private:
   Worker& worker_;
   const Machine& machine_;
-  MddInterner& sets_;
+  MddInterner& mdds_;
   std::optional<Worker::WorkItem> turn_;  // nullopt: not busy
   Expander::AgentCaches agent_caches_;  // per-agent data that the worker's own expander would keep
   double began_ = 0;
