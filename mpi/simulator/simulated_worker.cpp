@@ -28,7 +28,7 @@ void SimulatedWorker::begin(double now, Expander& expander) {
   expander.swap_cache(agent_caches_);
   worker_.perform(*turn_, expander);
   expander.swap_cache(agent_caches_);
-  for (auto& [id, set] : turn_->found.mdds)
+  for (auto& [id, mdd] : turn_->found.mdds)
     if (mdd.use_count() == 1) mdd = mdds_.one_of(mdd);  // just built by this item
   // Publishing here, before the simulated end of the item, is not too early: a simulated rank has
   // only one worker, so no other worker of the rank can read the results.
