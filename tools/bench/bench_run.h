@@ -46,7 +46,7 @@ struct BenchOptions {
   std::function<void(const BenchState&)> watch;  // called several times a second; may be empty
 };
 
-// Returns the command line of one run of Grove.
+// Returns the command line of one run of Grove, without its log and its certificate.
 std::vector<std::string> solve_command(const std::string& program, const batch::Entry& entry,
                                        const Method& method, double time_limit_s,
                                        const std::filesystem::path& plan);
@@ -55,7 +55,7 @@ std::vector<std::string> solve_command(const std::string& program, const batch::
 // options.folder. Runs are started instance by instance, each as a process of its own, at most
 // options.jobs at a time. Every plan is re-checked. Returns the final state when all runs are done,
 // or soon after options.stopped() returned true; runs in progress are then killed and get no row.
-// Throws InputError if the folder cannot be used or has rows with different settings, and
+// Throws InputError if the folder cannot be used or contains rows with different settings, and
 // std::system_error if a process cannot be created.
 BenchState run_bench(const std::vector<BenchInstance>& instances,
                      const std::vector<Method>& methods, const BenchOptions& options);
