@@ -9,19 +9,19 @@
 
 namespace grove::detail {
 
-// Lengths are in metres. Members without a stated range must be positive.
+// Lengths are in metres. Except for `seed`, members without a stated range must be positive.
 struct PlanarRequest {
   int vertices = 100;
   double width = 50;
   double height = 50;
-  int one_way = 0;  // percent of the roads
+  int one_way = 0;  // percent of the roads, from 0 to 100
   double metres_per_step = 1;
   std::uint64_t seed = 0;
 };
 
-// Returns a roadmap with vertices v0, v1, ... at random positions at least `metres_per_step` apart,
-// joined by straight roads that do not cross. Bridges stay two-way, so there can be fewer one-way
-// roads than requested.
+// Returns a roadmap with vertices v0, v1, ... at random positions (in whole centimetres) at least
+// `metres_per_step` apart, joined by straight roads that do not cross. Bridges stay two-way, so
+// there can be fewer one-way roads than requested.
 Roadmap planar_roadmap(const PlanarRequest& request);
 
 struct WarehouseRequest {
