@@ -4,7 +4,8 @@
 use crate::agent::NEVER;
 use crate::tokens::Map;
 
-/// Time steps by which the first limit exceeds the cost of the best order, or a lower bound on that cost.
+/// Time steps by which the first limit exceeds, at least, a lower bound on the cost of the best order. The limit is raised until it exceeds
+/// this cost by as much.
 const SLACK: u32 = 2;
 
 /// Maximum number of cached trees. A larger cache is emptied.

@@ -188,7 +188,7 @@ impl Verifier {
     /// Reads and verifies the proof of a statement. `line` is its first line.
     fn proof(&mut self, mut line: String, of: &Lemma) -> Result<(), Fault> {
         of.constraints.iter().for_each(|&constraint| self.push(constraint));
-        // For each open split, the length of the trail before it, and its second branch unless the proof of that has started.
+        // For each open split, the length of the trail before it, and its second branch (None once the proof of that branch has started).
         let mut splits: Vec<(usize, Option<Constraint>)> = Vec::new();
         loop {
             self.nodes += 1;
