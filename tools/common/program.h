@@ -8,7 +8,7 @@
 
 namespace grove::detail {
 
-// Prints `message` as one line on standard error: "grove: error: ...".
+// Prints `message` as one line on standard error: "NAME: error: ...", where NAME is the program.
 void print_error(const CLI::App& app, const std::string& message);
 
 // If a single-value option is given several times, makes the last value count, as in compilers, so
