@@ -219,7 +219,7 @@ class Loop {
   std::size_t at_once_ = 1'000'000;  // maximum number of new errands per decision
   grove::Session session_;
   int now_ = 0;
-  std::map<std::string, int> arrived_;  // by task of a robot: arrival time of the errand
+  std::map<std::string, int> arrived_;  // by id of a task: arrival time of its errand
   Report report_;
 };
 
