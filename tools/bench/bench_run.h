@@ -18,7 +18,7 @@
 namespace grove::detail::bench {
 
 struct Method {
-  batch::Settings settings;  // the method name is unique for each seed and is part of file names
+  batch::Settings settings;  // the method name is part of file names; unique for each seed
   std::int64_t threads = 1;
   // For Grove: arguments after `grove solve INSTANCE`, without those that solve_command() adds.
   std::vector<std::string> arguments = {};

@@ -26,7 +26,7 @@ class CommandLines {
 
   // Collective. Each rank must first call either accept(), when its command starts, or refuse().
   // accept() throws InputError if another rank refused. After accept(), refuse() has no effect, so
-  // only errors that occur on all ranks can end the command then.
+  // the command may then end only by errors that occur on all ranks; see the function collective().
   void accept();
   void refuse(const std::string& why);
 

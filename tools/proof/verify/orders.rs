@@ -94,10 +94,10 @@ impl Orders<'_> {
     }
 }
 
-/// Lower bound of Held and Karp. A path through all remaining stops to the end consists of an edge to one of them, a spanning tree of
-/// them, and an edge from one of them to the end. Each stop has a multiplier (`prices`) that is added to the cost of each of its edges.
+/// Lower bound of Held and Karp. A path through all remaining stops to the end consists of an edge to one of them, a spanning tree of them,
+/// and an edge from one of them to the end. Each stop has a multiplier (`prices`) that is added to the cost of each of its edges.
 /// Subgradient ascent changes the multipliers so that the degrees in the minimum tree approach those of a path. Any multipliers give a
-/// valid bound. All values are in 64ths of a time step.
+/// valid bound. All values except `root` are in 64ths of a time step.
 pub struct Bound {
     nodes: usize,
     /// Costs of edges, including the multipliers of both nodes. Nodes are the stops, the end and the start, in this order; the multipliers
@@ -106,6 +106,7 @@ pub struct Bound {
     prices: Vec<i64>,
     /// Cache, by set of remaining stops: value of tree() plus the durations of the stops.
     trees: Map<u64, i64>,
+    /// Lower bound on the cost of the best order, in time steps.
     root: u32,
 }
 

@@ -123,7 +123,7 @@ impl Rules {
     }
 
     /// Replaces the rules by those for `constraints`, which are on the agent of `model`, and restricts the order of stops in the model.
-    /// Returns false if the agent would have to rest on two different places.
+    /// Returns false, and leaves the rules incomplete, if the agent would have to rest on two different places.
     pub fn set(&mut self, model: &mut AgentModel, chains: &Chains, constraints: &[Constraint]) -> bool {
         self.stamp += 1;
         self.moves.clear();
