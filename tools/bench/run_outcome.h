@@ -24,7 +24,7 @@ batch::Outcome outcome_of_run(const ChildEnd& end, double time_limit_s, const In
                               const std::filesystem::path& output_file);
 
 // Returns whether the certificate checker verified the lower bound or the infeasibility in
-// `outcome`. `end` and `output_file` are those of the checker. If it did not, its message becomes
+// `outcome`. `end` and `output_file` are those of the checker. If it did not, the reason becomes
 // the outcome's error unless the outcome already has one.
 bool check_claims(batch::Outcome& outcome, const ChildEnd& end,
                   const std::filesystem::path& output_file);

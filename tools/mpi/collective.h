@@ -14,7 +14,8 @@ namespace grove::detail {
 
 // Collective. Calls `what` on each rank. If it throws InputError or CLI::ValidationError on any
 // rank, this function throws on all ranks: the same exception if it threw the same text on all
-// ranks, otherwise InputError with the number and the text of the first rank that failed.
+// ranks, otherwise InputError with the number and the text of the first rank that failed. Any other
+// exception propagates on its rank only, which must then abort the job.
 void collective(const MpiSession& session, const std::function<void()>& what);
 
 // Lets all ranks agree whether their command lines are valid. Command lines and programs can differ

@@ -4,8 +4,8 @@
 use crate::agent::NEVER;
 use crate::tokens::Map;
 
-/// Time steps by which the first limit exceeds, at least, a lower bound on the cost of the best order. The limit is raised until it exceeds
-/// this cost by as much.
+/// Time steps by which the first limit exceeds Bound::root, at least. The limit is raised until it exceeds the cost of the best order by as
+/// much.
 const SLACK: u32 = 2;
 
 /// Maximum number of cached trees. A larger cache is emptied.
@@ -106,7 +106,7 @@ pub struct Bound {
     prices: Vec<i64>,
     /// Cache, by set of remaining stops: value of tree() plus the durations of the stops.
     trees: Map<u64, i64>,
-    /// Lower bound on the cost of the best order, in time steps.
+    /// In time steps: a lower bound on the cost of the best order if no task execution is in progress at time 0; otherwise an estimate.
     root: u32,
 }
 

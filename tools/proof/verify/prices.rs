@@ -74,7 +74,8 @@ impl Prices {
     }
 
     /// Returns the minimum, over the paths of an agent, of the cost plus the prices that the path pays, in units. If paths that cost more
-    /// than the limit of the model could have a smaller sum, returns a lower bound on the minimum. Returns None if there is no path.
+    /// than the limit of the model could have a smaller sum, returns a lower bound on the minimum. Returns None if the limit is NEVER and
+    /// there is no path.
     pub fn of(&self, agent: u32, successors: &mut Successors) -> Option<u64> {
         let limit = successors.model.limit();
         let beyond = UNIT * (u64::from(limit) + 1);
