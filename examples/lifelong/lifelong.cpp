@@ -98,7 +98,7 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
 struct Report {
   int done = 0;
   int done_by_the_end_of_arrivals = 0;
-  long waited = 0;  // sum over all errands of the steps from arrival to visit
+  long waited = 0;  // sum over the done errands of the steps from arrival to visit
   int last = 0;
   int decisions = 0;
   int without_plan = 0;

@@ -56,7 +56,7 @@ NameAndOptions split(const std::string& text) {
 }
 
 // Returns the options of `grove solve` that a run must not set: those for the instance,
-// checkpoints, output files and log.
+// checkpoints, log and other files.
 std::set<std::string> file_options() {
   CLI::App app;
   SolveArguments unused;

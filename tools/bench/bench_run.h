@@ -40,7 +40,7 @@ struct BenchOptions {
   // whose command line does not contain the time limit is killed at the limit.
   double grace_s = 10;
   double grace_factor = 1.1;
-  std::string version;            // for rows of runs that do not report a version
+  std::string version;            // of Grove; for rows of runs that do not report one
   std::string machine;            // description of the processor, for the rows
   std::function<bool()> stopped;  // true: the user wants to stop; all threads call it
   std::function<void(const BenchState&)> watch;  // called several times a second; may be empty

@@ -17,10 +17,11 @@
 
 namespace grove::detail {
 
-// Sets the default name of the plan file, checks that the output files are distinct from each other
-// and from the input files, locks them, and checks that the plan and the incumbents can be written.
-// Removes the incumbents of an earlier run. While the returned locks exist, no other run of Grove
-// can write the files; see OutputLock. Throws InputError.
+// Sets the default name of the plan file, checks that no output file is another output file or an
+// input file (except that the plan file may be the start plan), locks the output files, and checks
+// that the plan and the incumbents can be written. Removes the incumbents of an earlier run. While
+// the returned locks exist, no other run of Grove can write the files; see OutputLock. Throws
+// InputError.
 [[nodiscard]] std::vector<OutputLock> prepare_outputs(SolveArguments& arguments,
                                                       const LoadedInstance& loaded);
 

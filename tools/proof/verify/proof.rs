@@ -355,7 +355,7 @@ impl Verifier {
         let (agents, places) = (self.models.len(), self.instance.world.links.len());
         ensure(of.agents.len() == agents && self.trail.is_empty(), "prices require all agents, without constraints")?;
         let mut prices = Prices::default();
-        let price = |tokens: &mut Tokens| tokens.number().map(u64::from);  // below 2^32, so sums do not overflow
+        let price = |tokens: &mut Tokens| tokens.number().map(u64::from);  // below 2^30, so sums do not overflow
         loop {
             let line = self.line()?;
             let mut tokens = Tokens::of(&line);
