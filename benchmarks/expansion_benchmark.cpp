@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Measures constraint-tree expansions per second and memory per node with the fixed policy and
-// omega = 0, for 10 agents and 20 tasks, and for 20 agents and 50 tasks. The map is
-// random-32-32-20 if the directory $GROVE_MOVINGAI has it, otherwise a similar generated map. The
-// benchmark ignores plans, so the search never ends early.
+// omega = 0, for 10 agents and 20 tasks, and for 20 agents and 50 tasks. The map is random-32-32-20
+// if the directory $GROVE_MOVINGAI contains it, otherwise a similar generated map. The benchmark
+// ignores plans, so the search never ends early.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -34,7 +34,8 @@ Source source() {
   return {data / "random-32x32-20.map", data / "random-32x32-20.scen"};
 }
 
-// Expands the best node in each step, and instantiates trees like Algorithm 4 with omega = 0.
+// Expands the best node in each step, and instantiates trees like Algorithm 4 of the paper with
+// omega = 0.
 class Search {
  public:
   explicit Search(const Instance& instance)

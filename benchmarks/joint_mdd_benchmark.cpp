@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Measures the time to build MDDs (for all agents) and the joint MDD test (for all pairs of agents)
-// on instances generated as in the paper. Each agent gets a given number of vertex constraints,
-// each on the optimal path under the previous ones.
+// on instances generated as in the paper. Each agent gets vertex constraints, at most a given
+// number, each on the optimal path under the previous ones.
 //
 // The time shown is the median over the agents or pairs of one pass; worst_us is the maximum. Maps
 // and scenarios are those of Moving AI in the directory $GROVE_MOVINGAI.
@@ -75,7 +75,8 @@ class Agents {
       }));
     return times;
   }
-  // Tests all pairs. Returns the time for each pair in microseconds, and counts the answers.
+  // Tests all pairs of agents with MDDs. Returns the time for each of these pairs in microseconds,
+  // and counts the answers.
   std::vector<double> test(std::vector<int>& answers) {
     answers.assign(3, 0);
     std::vector<double> times;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Measures one call of the low level with a given number of goals on a 32x32 map and a given number
-// of constraints. Conflicts with nine other agents break ties. Each constraint forbids a random
-// cell of the path under the previous constraints, or the move to this cell, at the time when the
-// path is there. This is the worst case for a branch of the constraint tree.
+// Measures one call of the low level with a given number of goals on a 32x32 map and at most a
+// given number of constraints. Conflicts with nine other agents break ties. Each constraint forbids
+// a random cell of the path under the previous constraints, or the move to this cell, at the time
+// when the path is there. This is the worst case for a branch of the constraint tree.
 //
 // The time shown is the median over the cases of one pass. labels and max_labels are the median and
 // the maximum number of labels expanded in a call. Maps are generated; the Moving AI maps in the
@@ -127,8 +127,8 @@ Constraint bar_on_path(const Path& path, Random& random) {
   return c;
 }
 
-// Adds `count` constraints to case i, each on the path that `search` finds under the previous ones.
-// They are therefore the worst case only for this search.
+// Adds at most `count` constraints to case i, each on the path that `search` finds under the
+// previous ones. They are therefore the worst case only for this search.
 template <class Search>
 void pile_up_constraints(std::vector<Case>& cases, Search& search, FixedOrderSipp& check, int count,
                          std::size_t i, Random& random) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Measures the time until the first plan of LaCAM with PIBT as configuration generator, for 100
 // agents and 100 tasks on a generated map, and for 250 of each on random-32-32-20 if the directory
-// $GROVE_MOVINGAI has it (as in `experiments.py crowded`). Each iteration has a different seed.
+// $GROVE_MOVINGAI contains it (as in `experiments.py crowded`). Each iteration has a different
+// seed.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>

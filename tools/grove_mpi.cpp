@@ -30,8 +30,8 @@ constexpr const char* kProgramFooter = R"(Exit codes:
 
 'grove-mpi help COMMAND' and 'grove-mpi COMMAND --help' explain a command, with examples.)";
 
-// Returns whether the user asks only for help or the version. The program then does not start MPI,
-// which may fail on this machine.
+// Returns whether the user asks only for help or the version, or gives no arguments. The program
+// then does not start MPI, which may fail on this machine.
 bool asks_for_help(std::span<char* const> arguments) {
   if (arguments.empty() || std::string_view(arguments.front()) == "help") return true;
   for (const std::string_view word : arguments) {

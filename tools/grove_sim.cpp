@@ -208,8 +208,8 @@ class Study {
     return run;
   }
 
-  // Sets the seconds per unit of effort for the other runs to the mean of the run with one rank. If
-  // that run had no effort, leaves the value at 0, so that each run measures its own.
+  // Unless --seconds-per-work is given, sets it for the other runs to the mean of the run with one
+  // rank. If that run did no work, leaves the value at 0, so that each run measures its own.
   void calibrate(const SimulatedRun& alone) {
     const SimulatedWorker::Tally& tally = alone.ranks.front().worker;
     if (a_.machine.seconds_per_work > 0 || tally.work <= 0) return;

@@ -98,7 +98,7 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
 struct Report {
   int done = 0;
   int done_by_the_end_of_arrivals = 0;
-  long waited = 0;  // sum over all errands of the steps from arrival to visit
+  long waited = 0;  // sum over the done errands of the steps from arrival to visit
   int last = 0;
   int decisions = 0;
   int without_plan = 0;
@@ -219,7 +219,7 @@ class Loop {
   std::size_t at_once_ = 1'000'000;  // maximum number of new errands per decision
   grove::Session session_;
   int now_ = 0;
-  std::map<std::string, int> arrived_;  // by task of a robot: arrival time of the errand
+  std::map<std::string, int> arrived_;  // by id of a task: arrival time of its errand
   Report report_;
 };
 

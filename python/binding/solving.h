@@ -8,8 +8,8 @@
 
 namespace grove::python {
 
-// Options of a solve, converted from `arguments`, which has an entry for every keyword argument of
-// grove.solve().
+// Options of a solve, converted from `arguments`, which must contain an entry for every keyword
+// argument of grove.solve().
 struct Call {
   explicit Call(const Instance& instance, const py::dict& arguments);
 

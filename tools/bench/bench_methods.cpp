@@ -55,7 +55,8 @@ NameAndOptions split(const std::string& text) {
   return {name[0], words_of(text.substr(colon + 1))};
 }
 
-// Returns the names of the options of `grove solve` that name input and output files.
+// Returns the options of `grove solve` that a run must not set: those for the instance,
+// checkpoints, log and other files.
 std::set<std::string> file_options() {
   CLI::App app;
   SolveArguments unused;

@@ -21,8 +21,8 @@ struct RunDefaults {
 
 // Parses "NAME: OPTIONS", where OPTIONS are options of `grove solve`, with that command's parser,
 // so that errors are reported before any run starts. "NAME" without a colon is short for
-// "NAME: --method NAME". Refuses options that name files, because the benchmark sets them. Throws
-// CLI::ValidationError, which names the run.
+// "NAME: --method NAME". Refuses the options for the instance, checkpoints, log and other files,
+// because the benchmark chooses these. Throws CLI::ValidationError, which names the run.
 bench::Method read_run(const std::string& text, const RunDefaults& defaults);
 
 // Parses several runs as read_run() does. Also throws CLI::ValidationError if two have the same

@@ -189,8 +189,8 @@ class Bench {
     return end;
   }
 
-  // Runs Grove and sets the outcome. Returns false if the run was cancelled. Reads the instance
-  // again after the run, so that the check depends only on the files.
+  // Runs Grove and sets the outcome. Returns false if the run or the check of its certificate was
+  // cancelled. Reads the instance again after the run, so that the check depends only on the files.
   bool solve(batch::Row& row, std::size_t run, const Files& files) {
     const std::size_t index = instance_index(run);
     const double limit = row.run.settings.time_limit_s;

@@ -18,7 +18,7 @@
 namespace grove::detail::bench {
 
 struct Method {
-  batch::Settings settings;  // the method name is unique for each seed and is part of file names
+  batch::Settings settings;  // the method name is part of file names; unique for each seed
   std::int64_t threads = 1;
   // For Grove: arguments after `grove solve INSTANCE`, without those that solve_command() adds.
   std::vector<std::string> arguments = {};
@@ -40,13 +40,13 @@ struct BenchOptions {
   // whose command line does not contain the time limit is killed at the limit.
   double grace_s = 10;
   double grace_factor = 1.1;
-  std::string version;            // for rows of runs that do not report a version
+  std::string version;            // of Grove; for rows of runs that do not report one
   std::string machine;            // description of the processor, for the rows
   std::function<bool()> stopped;  // true: the user wants to stop; all threads call it
   std::function<void(const BenchState&)> watch;  // called several times a second; may be empty
 };
 
-// Returns the command line of one run of Grove.
+// Returns the command line of one run of Grove, without its log and its certificate.
 std::vector<std::string> solve_command(const std::string& program, const batch::Entry& entry,
                                        const Method& method, double time_limit_s,
                                        const std::filesystem::path& plan);
@@ -55,7 +55,7 @@ std::vector<std::string> solve_command(const std::string& program, const batch::
 // options.folder. Runs are started instance by instance, each as a process of its own, at most
 // options.jobs at a time. Every plan is re-checked. Returns the final state when all runs are done,
 // or soon after options.stopped() returned true; runs in progress are then killed and get no row.
-// Throws InputError if the folder cannot be used or has rows with different settings, and
+// Throws InputError if the folder cannot be used or contains rows with different settings, and
 // std::system_error if a process cannot be created.
 BenchState run_bench(const std::vector<BenchInstance>& instances,
                      const std::vector<Method>& methods, const BenchOptions& options);

@@ -94,7 +94,7 @@ ChildEnd run_child(const std::vector<std::string>& command,
     errno = error;
     fail("pidfd_open");
   }
-  auto killed = ChildEnd::Kind::kExited;  // reason for which this function killed; kExited: none
+  auto killed = ChildEnd::Kind::kExited;  // why the child was killed; kExited: it was not
   for (;;) {
     pollfd wait{process.get(), POLLIN, 0};
     if (::poll(&wait, 1, kPollInterval_ms) > 0) break;

@@ -29,7 +29,7 @@ struct ChildEnd {
   Kind kind = Kind::kExited;
   int code = 0;
   double wall_s = 0;          // from start to end
-  double peak_memory_mb = 0;  // maximum resident set of the child, MB
+  double peak_memory_mb = 0;  // maximum resident set of the child or a process that it ran, MB
 };
 
 // Exit code of a child that could not start the program, as in shells.

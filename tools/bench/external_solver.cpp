@@ -283,8 +283,8 @@ void ExternalRun::read_plan(batch::Outcome& outcome, const ChildEnd& end) {
 }
 
 // A run of an anytime solver that reached its limit counts as solved if the solver had a plan in
-// time. That time is only the solver's own claim, so a run that ends much later than the limit does
-// not count.
+// time. Only the solver itself says when it had the plan, so a run that ends much later than the
+// limit does not count.
 void ExternalRun::finish_with_plan(batch::Outcome& outcome, const ChildEnd& end,
                                    const fs::path& output_file) const {
   const double limit = settings_.time_limit_s;

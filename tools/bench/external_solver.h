@@ -37,7 +37,7 @@ class ExternalRun {
   // Returns whether the command line contains the time limit, so that the solver can end by itself
   // at the limit.
   bool receives_time_limit() const;
-  // Returns the outcome of a run that has ended and was not cancelled. `output_file` has its
+  // Returns the outcome of a run that has ended and was not cancelled. `output_file` contains its
   // standard output and standard error.
   batch::Outcome outcome_of_run(const ChildEnd& end, const std::filesystem::path& output_file);
   // The solver's plan if outcome_of_run() has found it valid; otherwise nullopt.
@@ -84,9 +84,9 @@ struct NamedSolver {
 //   fast=eecbs:/opt/eecbs --suboptimality 2    an adapter with a different name
 //   mine=my.json:/opt/mine                     an adapter file of the user
 //   mine=/opt/mine {instance} {output}         a command with placeholders, without adapter
-// Each of `claims` is "NAME=REGEX", where REGEX matches the line in which solver NAME prints the
-// cost that it claims. Throws CLI::ValidationError for bad values and InputError for a bad adapter
-// file.
+// Each of `claims` is "NAME=REGEX": solver NAME prints the cost that it claims as group 1 of REGEX
+// in the last line that matches. Throws CLI::ValidationError for bad values and InputError for a
+// bad adapter file.
 std::vector<NamedSolver> read_solver_arguments(const std::vector<std::string>& solvers,
                                                const std::vector<std::string>& claims);
 

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDryRunLimit_s = 60;  // until a dry run, which only reads the instance, is killed
+constexpr double kDryRunLimit_s = 60;  // limit of a dry run, which only reads the instance
 
 // A temporary folder, deleted by the destructor.
 class Scratch {

@@ -29,10 +29,10 @@ struct MethodCount {
 // Snapshot of the progress of a benchmark. Runs whose rows already existed count as done.
 struct BenchState {
   std::vector<std::string> methods;           // names, in the order of the command line
-  std::map<std::string, MethodCount> counts;  // by name; has all of `methods`
+  std::map<std::string, MethodCount> counts;  // by name; contains all of `methods`
   batch::Workload work = {};
   double elapsed_s = 0;                              // since this command started
-  std::set<std::string> other_versions = {};         // Grove versions of rows by other versions
+  std::set<std::string> other_versions = {};         // other Grove versions in existing rows
   std::vector<batch::FalseClaim> false_claims = {};  // set when the benchmark ends
 
   void count(const batch::Row& row);

@@ -20,8 +20,8 @@ class RootCosts {
   // process has `bytes` bytes of resident memory.
   RootCosts(std::size_t instances, double seconds, std::size_t bytes);
 
-  // Returns sum_of_best_sequences() for `instance`, which is number `index`, from 0. Returns
-  // nullopt if some agent has no path or a limit was reached.
+  // Returns sum_of_best_sequences() for `instance`. `index`: its position, from 0. Returns nullopt
+  // if some agent has no path or a limit was reached.
   std::optional<Cost> of(std::size_t index, const Instance& instance);
 
  private:

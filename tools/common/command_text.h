@@ -11,7 +11,7 @@ namespace grove::detail {
 
 struct OptionText {
   std::vector<std::string> names;    // "-o", "--output"; for a positional argument "INSTANCE"
-  std::string value;                 // "FILE.html"; "" for a flag
+  std::string value;                 // "FILE.html"; "" for a flag or a positional argument
   std::string description;           // one line
   std::string default_value;         // default value; "" if there is none
   std::vector<std::string> choices;  // accepted values; empty if not a fixed list

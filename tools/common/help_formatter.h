@@ -7,7 +7,7 @@
 namespace grove::detail {
 
 // CLI11's help layout with descriptions wrapped for terminals of 100 columns. Options without a
-// description are hidden, because they are only for experiments.
+// description are hidden; they are for experiments, or were removed.
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option(const CLI::Option* option, bool is_positional) const override;

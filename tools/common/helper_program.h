@@ -18,9 +18,9 @@ void replace_standard_input(std::string_view text);
 std::string program_beside(const std::string& name);
 
 // Replaces this process by the program `name` (exec); does not return. The program is in
-// ../libexec/grove (installed) or in the folder of this program (build folder). Throws InputError,
-// which names the Debian package `package` that contains the program, if it does not exist, and
-// InputError if it cannot be run.
+// ../libexec/grove (installed) or in the folder of this program (build folder). Throws InputError
+// if the program does not exist or cannot be run; if it does not exist, the message names
+// `package`, the Debian package that contains it.
 [[noreturn]] void exec_program(const std::string& name, const std::vector<std::string>& arguments,
                                const std::string& package = "grove");
 

@@ -12,8 +12,8 @@ namespace grove::detail {
 double usable_memory_gb();
 // Returns default_memory_limit() in GB (1e9 bytes), the default of --memory-limit.
 double default_memory_gb();
-// Returns the numbers of the cores on which this process may run. Equal texts mean equal sets of
-// cores.
+// Returns the numbers of the cores on which this process may run, or "unknown" if the system does
+// not report them. Other equal texts mean equal sets of cores.
 std::string usable_cores_text();
 // Returns "host Linux x86_64, 8 cores, 16.0 GB", followed by ", 4.0 GB of them granted" if a job
 // limit is lower than the physical memory.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Strictly parsed numeric options. CLI11's own conversions accept more than numbers, and their
 // errors explain little. The variables must outlive the parsing. A variable keeps its value if the
-// option is not given. The help shows this value as the default unless the option is required.
+// option is not given. The help shows this value as the default, even if the option is required.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -34,7 +34,8 @@ CLI::Option* add_ranges(CLI::App& app, const std::string& name, std::vector<std:
                         IntegerRange range, const std::string& shown,
                         const std::string& description);
 // Adds an option whose value is an increasing list of positive integers, such as "10:100:10,150",
-// where FIRST:LAST:STEP stands for FIRST, FIRST + STEP, ... up to LAST.
+// where FIRST:LAST:STEP stands for FIRST, FIRST + STEP, ... up to LAST. Without :STEP the step is
+// 1.
 CLI::Option* add_counts(CLI::App& app, const std::string& name, std::vector<std::int64_t>& values,
                         const std::string& description);
 // Adds an option that can be given several times, each time with exactly one value.

@@ -17,7 +17,7 @@ struct OutputFile {
 };
 
 // Throws CLI::ValidationError if one of `files` is "-", which is not a file. Throws InputError if
-// one of them is the instance, its map, one of `plans`, or the same as another one of them.
+// one of them is the instance, its map or one of `plans`, or if two of them are the same file.
 void require_distinct_outputs(const std::vector<OutputFile>& files,
                               const InstanceArguments& instance, const LoadedInstance& loaded,
                               const std::vector<std::string>& plans);

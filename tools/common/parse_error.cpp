@@ -48,7 +48,7 @@ std::string parse_error_text(const CLI::App& command, const CLI::ParseError& err
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) return unknown_text(command);
   const bool wants_command = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr &&
                              command.get_require_subcommand_min() > 0;
-  if (!wants_command) return error.what();  // otherwise CLI11 only reports that one is required
+  if (!wants_command) return error.what();  // else this text would not name the word
   return unknown_command_text(command, command.remaining().front());
 }
 

@@ -8,10 +8,10 @@
 
 namespace grove::detail {
 
-// Prints `message` as one line on standard error: "grove: error: ...".
+// Prints `message` as one line on standard error: "NAME: error: ...", where NAME is the program.
 void print_error(const CLI::App& app, const std::string& message);
 
-// If a single-value option is given several times, makes the last value count, as in compilers, so
+// Makes the last value count if a single-value option is given several times, as in compilers, so
 // that a user can override the options of a script. Call it before adding options and subcommands.
 void let_last_option_win(CLI::App& app);
 

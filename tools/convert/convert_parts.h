@@ -46,19 +46,21 @@ struct ConvertArguments {
 // CLI::ValidationError if an option that this format requires is missing.
 LoadedInstance load(const ConvertArguments& arguments, InstanceFormat from);
 
-// Convert INSTANCE, or a plan for it, to OUT and print a summary. Throw InputError if the format of
-// OUT cannot express a part of INSTANCE (the error has its place in the file), and
-// CLI::ValidationError if options contradict each other.
+// Convert INSTANCE, or a plan for it, to OUT and print a summary. Throw InputError for bad files
+// and if the format of OUT cannot express a part of INSTANCE (the error states its place in the
+// file), and CLI::ValidationError if options contradict each other.
 void convert_instance(const ConvertArguments& arguments, InstanceFormat from, InstanceFormat to);
 void convert_plan(const ConvertArguments& arguments, InstanceFormat from, PlanFormat to);
 
-// Returns whether INSTANCE is a road network of another tool or OUT is a roadmap.
+// Returns whether INSTANCE is a road network of another tool or OUT is a roadmap, according to
+// --from, --to and the suffixes.
 bool converts_roads(const ConvertArguments& arguments);
 // Converts a road network of another tool to a roadmap and prints a summary. Throws InputError and
 // CLI::ValidationError.
 void convert_roadmap(const ConvertArguments& arguments);
 
-// Returns whether INSTANCE is a map of another tool or OUT is a map.
+// Returns whether INSTANCE is a map of another tool according to --from, or OUT is a map according
+// to --to or its suffix.
 bool converts_maps(const ConvertArguments& arguments);
 // Converts a map of another tool to a Moving AI map and prints a summary. Throws InputError and
 // CLI::ValidationError.

@@ -101,7 +101,7 @@ class PgmReader {
   std::size_t at_ = 0;
 };
 
-// Reads a PNG image as greyscale. Transparent pixels count as black.
+// Reads a PNG image as greyscale. Transparency darkens pixels; a fully transparent pixel is black.
 Image read_png(const fs::path& path, const InputRules& rules) {
   const std::string bytes = read_text(path);
   if (!bytes.starts_with("\x89PNG\r\n\x1a\n"))

@@ -12,11 +12,12 @@
 
 namespace grove::detail {
 
-// Free and blocked pixels of an occupancy grid in mode "trinary". Unknown space is blocked.
+// Free and blocked pixels of an occupancy grid. A pixel is free if its occupancy is below
+// free_thresh; all other pixels, also unknown space, are blocked.
 class OccupancyMap {
  public:
   // Reads map.yaml and its image (PGM or PNG). Throws InputError for bad files, for a yaw other
-  // than 0, and for modes and thresholds that are not those of trinary maps.
+  // than 0, and for modes other than "trinary" and "scale".
   explicit OccupancyMap(const std::filesystem::path& yaml, const InputRules& rules = {});
   // Makes a map from memory. `free`: by pixel, row by row from the top. `resolution`: metres per
   // pixel. `origin`: lower left corner, metres.
@@ -44,14 +45,14 @@ class OccupancyMap {
 // A grid map made from an occupancy grid. Both have the same lower left corner.
 struct CellMap {
   Grid grid;
-  int too_near = 0;  // cells blocked because their centre is free but too near to a wall
+  int too_near = 0;  // cells blocked because their centre is free but too near to a blocked pixel
   int narrow = 0;    // cells blocked because the robot cannot move straight to a passable neighbour
 };
 
 // Returns a grid map with cells of `cell_size` metres. A cell is passable only if a robot of radius
 // `robot_radius` metres fits at its centre. If the robot cannot move straight between two passable
-// neighbours, the one with fewer connections is blocked. Throws std::invalid_argument if no cell
-// fits into the image.
+// neighbours, the one with fewer connections is blocked; on a tie, the right or lower one. Throws
+// std::invalid_argument if no cell fits into the image.
 CellMap cells_of(const OccupancyMap& map, double cell_size, double robot_radius);
 
 }  // namespace grove::detail

@@ -13,7 +13,7 @@ namespace grove::detail {
 
 // Values of the command-line options.
 struct DisturbanceArguments {
-  double delayed = 0;                 // share of actions that are delayed, from 0 to 1
+  double delayed = 0;                 // probability that an action is delayed
   std::int64_t delay_steps = 3;       // maximum delay of an action, time steps
   std::vector<std::string> slow;      // ROBOT=FACTOR
   std::vector<std::string> stop;      // ROBOT@TIME=STEPS

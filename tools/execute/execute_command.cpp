@@ -144,7 +144,7 @@ class Execution {
     Solution solution;
     solution.plan = executed_plan(loaded_.instance, *claimed_.solution.plan, order_, trace);
     solution.lower_bound = 0;
-    // An execution has following conflicts only if the plan has.
+    // An execution contains following conflicts only if the plan does.
     solution.may_follow = claimed_.solution.may_follow;
     solution.status = status_of(solution.plan->cost, 0, solution.omega);
     solution.stats.texts["executed"] = a_.plan;
@@ -238,7 +238,7 @@ class Execution {
   Totals fixed_;
   Totals switching_;
   std::int64_t switches_ = 0;
-  std::int64_t unfinished_ = 0;  // number of executions
+  std::int64_t unfinished_ = 0;  // executions in which a robot does not reach its end
   std::vector<BlockedRobot> first_stuck_;
   std::int64_t first_stuck_seed_ = 0;
 };

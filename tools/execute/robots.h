@@ -18,8 +18,8 @@ namespace grove::detail {
 AgentIndex robot_of(const std::string& option, const std::string& text, const std::string& id,
                     const Instance& instance);
 
-// Reads the plan to execute, in any supported format, and prints warnings. Throws InputError if the
-// file has no plan or the plan is not valid for `instance`.
+// Reads the plan to execute, in any supported format. Throws InputError if the file contains no
+// plan or the plan is not valid for `instance`.
 ClaimedPlan read_plan_to_execute(const std::string& file, const Instance& instance);
 
 }  // namespace grove::detail

@@ -45,8 +45,8 @@ Examples:
   grove generate paper --scenarios 1-3 --agents 5 --problem cts --output-dir small
   grove bench small/manifest.txt --run 'paper: --policy fixed' --run 'grove:' --output-dir results)";
 
-// Values of --problem, as the problems to generate: false is CTS-MAPF (agents have destinations),
-// true is MG-MAPF (agents have none).
+// Values of --problem, each with the problems that it generates: false is CTS-MAPF (agents have
+// destinations), true is MG-MAPF (agents have none).
 const std::map<std::string, std::vector<bool>> kProblems{
     {"both", {false, true}}, {"cts", {false}}, {"mg", {true}}};
 

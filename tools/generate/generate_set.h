@@ -43,7 +43,8 @@ void require_fitting(const std::vector<MapSet>& maps, const SetSizes& sizes);
 // Writes the instances DIR/MAP_sS_nN_mM.cts.json (before .cts.json, the suffix of the extras and,
 // for MG-MAPF, _mg) and DIR/manifest.txt, which lists them. For a set with both problems, also
 // writes manifest-cts.txt and manifest-mg.txt with the instances of one problem each. Creates the
-// folder if it is missing and prints a summary. Throws InputError.
+// folder if it is missing and prints a summary. Throws InputError if an instance is impossible or a
+// file cannot be written.
 void write_set(const std::filesystem::path& directory, const std::vector<MapSet>& maps,
                const SetSizes& sizes);
 

@@ -18,8 +18,7 @@ struct DrawnAgent {
   Place goal = kNoPlace;
 };
 
-// An instance under construction. Error messages name `file`, from which the agents are drawn. All
-// members that change or build the instance throw InputError.
+// An instance under construction. Error messages name `file`, from which the agents are drawn.
 class InstanceDraft {
  public:
   // The agents get the ids a0, a1, ...
@@ -28,9 +27,10 @@ class InstanceDraft {
   int task_count() const { return static_cast<int>(tasks_.size()); }
   bool has_task_on(Place place) const;
   // Adds a task on `place`; tasks get the ids t0, t1, .... Assigns it to 1, 2 or 3 distinct agents
-  // drawn from `able`.
+  // drawn from `able`, which must not be empty.
   void add_task(Place place, std::vector<int> able);
 
+  // Throws InputError if the instance is invalid.
   Instance build(Map map) &&;
 
  private:

@@ -35,7 +35,8 @@ struct InstanceRequest {
   int agents = 1;
   int tasks = 0;
   std::uint64_t seed = 0;
-  // MG-MAPF: no agent has a destination; the drawn destination becomes a further task of the agent.
+  // MG-MAPF: no agent has a destination; instead each agent gets a task on its drawn destination,
+  // which it shares if that place already has a task.
   bool mg = false;
   // Drawn independently, so that the other parts of the instance do not depend on them. Turning is
   // possible only on grids.
@@ -44,15 +45,16 @@ struct InstanceRequest {
 
 // Returns the first row (counted from 0) whose start can become a task: max(20, agents).
 int first_task_row(int agents);
-// Returns the number of scenario rows that an instance needs if no start is repeated.
+// Returns the number of scenario rows that an instance needs if each start from first_task_row() on
+// can become a task.
 int rows_needed(const InstanceRequest& request);
 
 // Generates an instance. The first `agents` rows define the agents a0, a1, .... The starts of the
 // rows from first_task_row() on become the tasks t0, t1, ..., except for rows whose start already
 // has a task or cannot be reached by any agent. Each task is assigned to 1, 2 or 3 distinct agents,
 // drawn from the agents that can reach it. Throws InputError, which names the scenario, if the
-// scenario has too few rows or rows that do not fit `grid`, or if an agent would get more than
-// kMaxTasksPerAgent tasks.
+// scenario has too few rows, if the row of an agent does not fit `grid` or the other agents, or if
+// an agent would get more than kMaxTasksPerAgent tasks.
 Instance generate_instance(const Grid& grid, const Scenario& scenario,
                            const InstanceRequest& request);
 

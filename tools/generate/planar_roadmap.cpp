@@ -5,14 +5,14 @@
 //
 // *Claim: two roads meet only at common ends.* *Proof.* Suppose that roads pq and rs without a
 // common end cross. If none of the four points is on the other road, p r q s is a convex
-// quadrilateral. Its angles sum to 360 degrees, so at least one of them is 90 degrees or more. Its
-// corner sees the opposite diagonal at that angle, so the ends of this diagonal are not joined. If
-// one of the points is on the other road, it sees that road at 180 degrees, so the road does not
-// exist. Both cases are contradictions.
+// quadrilateral. Its angles sum to 360 degrees, so at least one of them is 90 degrees or more. The
+// corner with that angle sees the diagonal between its neighbours, which is one of the roads, at
+// that angle, so this road does not exist. If one of the points is on the other road, it sees that
+// road at 180 degrees, so the road does not exist. Both cases are contradictions.
 //
 // *Claim: the graph is connected.* It contains every minimum spanning tree. If r lies in or on the
-// circle over pq, then pr and rq are shorter than pq, so replacing pq by one of them makes a
-// spanning tree with pq shorter.
+// circle over pq, then pr and rq are shorter than pq, so a spanning tree that contains pq becomes
+// shorter if one of them replaces pq.
 //
 // *One-way roads.* The direction from b to a of a road can be removed without changing reachability
 // if another path leads from b to a. In a strongly connected network this holds for at least one

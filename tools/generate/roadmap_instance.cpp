@@ -83,8 +83,9 @@ std::vector<DrawnAgent> draw_agents(const Site& site, Vertices starts, int count
   Vertices goals = starts;
   random.shuffle(starts);
   random.shuffle(goals);
-  // If an agent's goal is its start, swaps it with the next agent's goal. Afterwards neither goal
-  // is the start of its agent, because starts are distinct and goals are distinct.
+  // If an agent's goal is its start, swaps it with the next agent's goal. Afterwards both goals
+  // differ from the starts of their agents, because starts are distinct and goals are distinct.
+  // (With one vertex this changes nothing.)
   for (std::size_t k = 0; k < goals.size(); ++k)
     if (goals[k] == starts[k]) std::swap(goals[k], goals[(k + 1) % goals.size()]);
   std::vector<DrawnAgent> agents;

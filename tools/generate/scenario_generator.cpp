@@ -25,8 +25,8 @@ std::vector<ScenarioRow> random_scenario(const Grid& grid, const std::string& ma
   Random random = random_for(RandomUse::kScenario, seed);
   random.shuffle(starts);
   random.shuffle(goals);
-  // If the goal of a row is its start, swaps it with the next row's goal. Afterwards neither goal
-  // is the start of its row, because starts are distinct and goals are distinct.
+  // If the goal of a row is its start, swaps it with the next row's goal. Afterwards both goals
+  // differ from the starts of their rows, because starts are distinct and goals are distinct.
   for (std::size_t k = 0; k < goals.size(); ++k)
     if (goals[k] == starts[k]) std::swap(goals[k], goals[(k + 1) % goals.size()]);
 

@@ -14,7 +14,8 @@ namespace grove::detail {
 
 // Collective. Calls `what` on each rank. If it throws InputError or CLI::ValidationError on any
 // rank, this function throws on all ranks: the same exception if it threw the same text on all
-// ranks, otherwise InputError with the number and the text of the first rank that failed.
+// ranks, otherwise InputError with the number and the text of the first rank that failed. Any other
+// exception propagates on its rank only, which must then abort the job.
 void collective(const MpiSession& session, const std::function<void()>& what);
 
 // Lets all ranks agree whether their command lines are valid. Command lines and programs can differ
@@ -26,7 +27,7 @@ class CommandLines {
 
   // Collective. Each rank must first call either accept(), when its command starts, or refuse().
   // accept() throws InputError if another rank refused. After accept(), refuse() has no effect, so
-  // only errors that occur on all ranks can end the command then.
+  // the command may then end only by errors that occur on all ranks; see the function collective().
   void accept();
   void refuse(const std::string& why);
 

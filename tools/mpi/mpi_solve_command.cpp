@@ -121,7 +121,7 @@ class Run {
     }
     const std::string failure = finish_run(a_, loaded_->instance, solution, *log_);
     if (unresponsive_ > 0 && failure.empty())
-      session_.abort(kExitSuccess);  // otherwise they would prevent the end of this rank
+      session_.abort(kExitSuccess);  // else unresponsive ranks would prevent the end of this rank
     try {
       report_failures({failure, proof_->failure()});
     } catch (const CommandFailed& failed) {

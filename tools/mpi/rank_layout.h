@@ -32,11 +32,12 @@ void divide_machine(const CLI::App& app, SolveArguments& arguments, const MpiSes
 RankLayout gather_rank_layout(const MpiSession& session, std::int64_t threads,
                               const SharedMemory& memory);
 
-// Returns the workers for the log, "2 each on 4 ranks, 2 hosts", followed by ", 912 MB shared" if
-// ranks share memory.
+// Returns the workers for the log, such as "2 each on 4 ranks, 2 hosts", followed by ", 912 MB
+// shared" if ranks share memory.
 std::string workers_text(const RankLayout& layout);
-// Returns warnings about hosts with more threads than cores (the threads slow each other down),
-// hosts with unused cores, and hosts without shared memory.
+// Returns warnings about ranks with more threads than the cores that they may use, hosts with more
+// threads than cores (the threads slow each other down), hosts with unused cores, and hosts without
+// shared memory.
 std::vector<std::string> warnings(const RankLayout& layout);
 
 }  // namespace grove::detail

@@ -31,7 +31,8 @@ class RequestedChange {
   RequestedChange(const ChangeArguments& arguments, const Instance& instance);
 
   const InstanceChange& change() const { return change_; }
-  // Throws an error of apply() as an error in the option or file that requested the refused part.
+  // Rethrows `error`, which apply() threw, as an error in the option or file that requested the
+  // refused part.
   [[noreturn]] void refuse(const InstanceError& error) const;
 
  private:

@@ -93,8 +93,8 @@ class Replanning {
   }
 
  private:
-  // Reads the plan. If it has no following conflicts by its own claim, forbids them in the instance
-  // and therefore in the new plan.
+  // Reads the plan. If its file claims that it contains no following conflicts, forbids them in the
+  // instance and therefore in the new plan.
   Plan read_plan() {
     Solution driven = read_plan_to_execute(a_.plan, loaded_.instance).solution;
     if (!driven.may_follow) loaded_.instance = loaded_.instance.without_following();

@@ -38,9 +38,10 @@ struct CheckpointFolder {
 
 // Creates and locks the folder and checks that a checkpoint can be written there. Sets `options` so
 // that the run writes checkpoints (also on SIGUSR1) and, with --resume auto, resumes from an
-// existing checkpoint and starts from the incumbent of the earlier run. Does nothing without
-// --checkpoint. Throws InputError if the folder or a file in it cannot be used, for instance
-// because another run uses it, and if a checkpoint or incumbent exists but --resume is not given.
+// existing checkpoint and starts from the incumbent of the earlier run unless the start plan costs
+// no more. With --resume never, removes that incumbent. Does nothing without --checkpoint. Throws
+// InputError if the folder or a file in it cannot be used, for instance because another run uses
+// it, and if a checkpoint or incumbent exists but --resume is not given.
 CheckpointFolder prepare_checkpoints(const CheckpointArguments& arguments, const Instance& instance,
                                      SolveOptions& options);
 

@@ -18,7 +18,8 @@ namespace grove::detail {
 // files before `next` receives it, so it survives the end of the process. A background thread then
 // flushes the files to disk, so that they survive a crash of the machine; the search does not wait
 // for it, because incumbents can come in quick succession. The destructor waits for all flushes.
-// After the first failure, which is reported on standard error, it writes no more files.
+// After the first file that cannot be written, which it reports on standard error, it writes no
+// more files.
 class IncumbentFiles : public ForwardingObserver {
  public:
   // If `prefix` is "", it writes no numbered files; if `best` is "", no file with the best plan.

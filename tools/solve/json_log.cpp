@@ -34,7 +34,7 @@ Json cost_json(std::optional<Cost> cost) {
   return cost ? Json(*cost) : Json();
 }
 
-// Returns (cost - lower_bound) / lower_bound; null without a cost and if the gap is infinite.
+// Returns (cost - lower_bound) / lower_bound; null if there is no cost or the gap is infinite.
 Json gap_json(std::optional<Cost> cost, Cost lower_bound) {
   if (!cost) return {};
   if (*cost == lower_bound) return 0;

@@ -10,12 +10,13 @@
 namespace grove::detail {
 
 // Writes lines to the screen, to a file, to both or to neither. On a terminal it also shows a
-// progress line, which the next output overwrites.
+// progress line, which the next output overwrites. If a line cannot be written to the screen or the
+// file, warns on standard error and writes no more there.
 class LogSink {
  public:
   // `screen`: stdout, stderr, or nullptr for no screen. `file`: "" for no file.
-  // `may_show_progress`: false under mpirun, because its processes see a terminal even if there is
-  // none. Throws InputError if the file cannot be opened.
+  // `may_show_progress`: false under mpirun, because a process that it starts sees a terminal even
+  // if there is none. Throws InputError if the file cannot be opened.
   LogSink(std::FILE* screen, const std::filesystem::path& file, bool may_show_progress = true);
 
   void line(std::string_view text = "");

@@ -15,8 +15,8 @@
 namespace grove::detail {
 namespace {
 
-// Returns the cost of the plan in the file. Returns nullopt if the file has no plan that is valid
-// for the instance.
+// Returns the cost of the plan in the file. Returns nullopt if the file contains no plan that is
+// valid for the instance.
 std::optional<Cost> valid_cost(const std::filesystem::path& file, const Instance& instance) {
   if (!std::filesystem::is_regular_file(file)) return std::nullopt;
   try {

@@ -13,12 +13,12 @@ namespace grove::detail {
 // The plan file name that stands for standard output.
 inline constexpr const char* kStandardOutput = "-";
 
-// Writes the result of a run to `file`, completely or not at all. If `file` already has a plan that
-// is valid for `instance`, and the run has no plan or (with `keeps_cheaper`) a more expensive one,
-// leaves the file unchanged and returns the cost of the existing plan; otherwise returns nullopt.
-// Nothing but the plan in the existing file is trusted. Throws InputError if the file cannot be
-// written, and std::logic_error if the existing valid plan contradicts the lower bound or the
-// infeasibility that the run claims.
+// Writes the result of a run to `file`, completely or not at all, or to standard output if `file`
+// is "-". If `file` already contains a plan that is valid for `instance`, and the run has no plan
+// or (with `keeps_cheaper`) a more expensive one, leaves the file unchanged and returns the cost of
+// the existing plan; otherwise returns nullopt. Ignores everything in the existing file except its
+// plan. Throws InputError if the file cannot be written, and std::logic_error if the existing valid
+// plan contradicts the lower bound or the infeasibility that the run claims.
 std::optional<Cost> write_plan(const std::filesystem::path& file, const Instance& instance,
                                const Solution& solution, bool keeps_cheaper = true);
 

@@ -15,7 +15,7 @@ namespace grove::detail {
 
 // During the run each rank logs its part of the proof to FILE.part-RANK-N beside the certificate
 // FILE. At the end one rank combines the parts of all ranks. With --checkpoint the parts remain,
-// because the certificate of a later run that resumes needs them too.
+// because a later run that resumes needs them for its certificate too.
 class ProofOutput {
  public:
   // Without --proof the object does nothing. Throws InputError if the part cannot be written, and
@@ -32,8 +32,8 @@ class ProofOutput {
   std::string close();
   // Makes the certificate from the parts and records in the solution's statistics what it proves.
   // Call it on one rank after all ranks have called close(). `failure`: the result of close() on a
-  // rank that failed, otherwise "". Errors do not throw but set failure(), because the plan must
-  // still be written.
+  // rank that failed, otherwise "". If the certificate cannot be written or memory runs out, sets
+  // failure() instead of throwing, because the plan must still be written.
   void write(const Instance& instance, Solution& solution, const std::string& failure);
   // Why no certificate was written; "" if one was, or without --proof.
   const std::string& failure() const { return failure_; }

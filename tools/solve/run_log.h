@@ -13,9 +13,10 @@
 
 namespace grove::detail {
 
-// Writes a row immediately for each incumbent and for each node that --log-tree selects. Throttles
-// other rows by the clock or, with Options::by_work, by the number of expanded nodes, so that two
-// runs of a deterministic search log the same rows.
+// Writes a row immediately for each incumbent, for each node that --log-tree selects, and at the
+// end of the run if something has changed since the last row. Throttles other rows by the clock or,
+// with Options::by_work, by the number of expanded nodes, so that two runs of a deterministic
+// search log the same rows.
 class RunLog : public RunObserver {
  public:
   using Clock = std::chrono::steady_clock;
@@ -33,7 +34,8 @@ class RunLog : public RunObserver {
   void on_infeasible(std::string_view reason) override;
   void on_note(std::string_view note) override;
   void on_checkpoint(const CheckpointReport& report) override;
-  // Returns true after an event that made a throttled row due, and after the end of the run.
+  // Returns true once after an event that made a throttled row due, and once after the end of the
+  // run.
   bool wants_statistics() override { return std::exchange(statistics_are_due_, false); }
   void on_statistics(const RunStatistics& statistics) override;
   void on_root(const NodePtr& root) override;

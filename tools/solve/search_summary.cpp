@@ -29,7 +29,8 @@ class Counts {
     return fmt::format("{} queries, {} % cache hits", queries,
                        100 * (*this)[what + "_hits"] / std::max<std::int64_t>(queries, 1));
   }
-  // Returns the number of splits of each kind in descending order, "vertex-edge 812, target 44".
+  // Returns the number of splits of each kind in descending order, such as "vertex-edge 812, target
+  // 44"; "none" without splits.
   std::string splits() const {
     constexpr std::string_view kPrefix = "splits_";
     std::vector<std::pair<std::int64_t, std::string>> kinds;
@@ -44,8 +45,8 @@ class Counts {
     }
     return text.empty() ? "none" : text;
   }
-  // Returns the number of incumbents and their total decrease of the cost for each source,
-  // "tree 1, prioritized 2 (cost -14)".
+  // Returns the number of incumbents of each source and the total decrease of the cost by them,
+  // such as "tree 1, prioritized 2 (cost -14)"; "none" without incumbents.
   std::string plans() const {
     std::string text;
     for (const std::string_view source : kPlanSources) {

@@ -49,8 +49,8 @@ struct SolveArguments {
 };
 
 // Add groups of options with their ranges, defaults and help: search, tolerance, method, files of
-// the run, log. The search options include tolerance and method. `arguments` must outlive the
-// parsing of the command line.
+// the run, log. The search options include tolerance and method, and the file options include the
+// log. `arguments` must outlive the parsing of the command line.
 void add_search_options(CLI::App& app, SolveArguments& arguments);
 void add_omega_option(CLI::App& app, SolveArguments& arguments);
 void add_method_options(CLI::App& app, SolveArguments& arguments);

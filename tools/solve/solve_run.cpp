@@ -26,8 +26,8 @@ constexpr const char* kJsonLines = "jsonl";
 // Maximum interval between rows of JSON logs, so that a program sees that the run is alive.
 constexpr double kMaxRowInterval_s = 10;
 
-// Returns the method for the log, for the adaptations of CTS-CBS with the policy, because they are
-// those of the paper only with --policy fixed.
+// Returns the method for the log. For an adaptation of CTS-CBS the text includes the policy,
+// because only --policy fixed gives the paper's adaptation.
 std::string method_text(const SolveArguments& a) {
   const bool is_fixed = solve_options(a).policy == Policy::kFixed;
   if (!is_adaptation(method_of(a))) return a.method;

@@ -17,9 +17,11 @@
 
 namespace grove::detail {
 
-// Sets the default name of the plan file, checks that the output files of the run are distinct and
-// can be written, and locks them. While the returned locks exist, no other run of Grove can write
-// the files; see OutputLock. Throws InputError.
+// Sets the default name of the plan file, checks that no output file is another output file or an
+// input file (except that the plan file may be the start plan), locks the output files, and checks
+// that the plan and the incumbents can be written. Removes the incumbents of an earlier run. While
+// the returned locks exist, no other run of Grove can write the files; see OutputLock. Throws
+// InputError.
 [[nodiscard]] std::vector<OutputLock> prepare_outputs(SolveArguments& arguments,
                                                       const LoadedInstance& loaded);
 
@@ -43,8 +45,8 @@ void add_run_facts(Solution& solution, const CLI::App& app, const SolveArguments
                    std::chrono::steady_clock::time_point start);
 
 // Writes the plan file and the end of the log, and reports a missing plan on standard error; see
-// plan_output.h. Returns "", or why the plan file could not be written, for instance a
-// full disk; the log then still gets its summary.
+// plan_output.h. Returns "", or why the plan file could not be written, for instance a full disk;
+// the log then still gets its summary.
 [[nodiscard]] std::string finish_run(const SolveArguments& arguments, const Instance& instance,
                                      const Solution& solution, LogFormat& log);
 // Prints each failure that is not "" on standard error. If any exists, throws CommandFailed with

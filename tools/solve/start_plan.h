@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads plan files of earlier runs, which serve as start plans or already exist as output files.
+// Reads plan files of earlier runs: start plans, and output files that already exist.
 #pragma once
 
 #include <filesystem>

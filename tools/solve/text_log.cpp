@@ -25,8 +25,8 @@ std::string count_text(int count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-// Returns the number of items with each trait, such as " (2 turning, 1 idle)"; "" if no item has
-// any.
+// Returns the number of items with each trait, such as " (2 turning, 1 idle)"; "" if no item has a
+// trait.
 template <class Item>
 std::string traits_text(
     std::span<const Item> items,

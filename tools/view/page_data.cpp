@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Run-length encoding of moves or turns, such as "12E.3N": for each run its length, if more than 1,
-// and its letter.
+// and its letter. A jump has the form "@TARGET;".
 class Steps {
  public:
   void add(char letter) {

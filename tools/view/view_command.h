@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The view command, which two programs have: grove, and grove-picture, which draws pictures.
+// The view command of two programs: grove, and grove-picture, which draws the pictures.
 #pragma once
 
 #include <CLI/App.hpp>

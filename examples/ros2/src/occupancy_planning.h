@@ -17,8 +17,8 @@ struct Pose2d {
   double yaw = 0;
 };
 
-// An occupancy grid as in nav_msgs/OccupancyGrid. `data` has the pixels row by row from the bottom,
-// from 0 (free) to 100 (occupied); -1 is unknown.
+// An occupancy grid as in nav_msgs/OccupancyGrid. `data` contains the pixels row by row from the
+// bottom, from 0 (free) to 100 (occupied); -1 is unknown.
 struct Occupancy {
   int width = 0;
   int height = 0;
@@ -66,7 +66,7 @@ class PlanningGrid {
 grove::Instance instance_of(const PlanningGrid& grid, const std::vector<Errand>& errands);
 
 // Returns the robot's pose at each time step of the plan. The robot faces the direction of its next
-// move and, after its last move, the direction of that move.
+// move and, after its last move, the direction of that move. If it never moves, its yaw is 0.
 std::vector<Waypoint> waypoints(const PlanningGrid& grid, const grove::AgentPlan& plan,
                                 double seconds_per_step);
 

@@ -9,7 +9,7 @@ use std::rc::Rc;
 /// The time `inf`. It is later than every time that a certificate can name.
 pub const NEVER: u32 = 1 << 30;
 
-/// Lists of numbers, one for each number from 0 to `count` - 1, in compressed rows.
+/// A list of numbers for each index from 0 to `count` - 1, in compressed rows.
 struct Lists {
     first: Vec<u32>,
     items: Vec<u32>,
@@ -83,8 +83,8 @@ impl Poses {
 
     fn on(&self, place: Place) -> std::ops::Range<u32> { place * self.each..(place + 1) * self.each }
 
-    /// Returns, for each pose, the minimum over all sources of the cost of going to the source plus the cost of the source. A source is
-    /// (cost, pose).
+    /// Returns, for each pose, the minimum over all sources of the cost of going to the source plus the cost of the source; NEVER if no
+    /// source is reachable. A source is (cost, pose).
     fn spread(&self, mut sources: Vec<(u32, u32)>) -> Vec<u32> {
         sources.sort_unstable_by(|one, two| two.cmp(one));
         let mut found = vec![NEVER; self.place.len()];
@@ -111,8 +111,8 @@ pub struct Stop {
     pub duration: u32,
 }
 
-/// A set of stops done. `rest` has, for each post that may be next, the remaining cost from the arrival at the post, and the post, in
-/// ascending order of cost.
+/// A set of stops done. `rest` contains (remaining cost from the arrival at the post, post) for each post that may be next, in ascending
+/// order of cost.
 struct Done {
     stops: u64,
     rest: Vec<(u32, u32)>,
@@ -155,7 +155,7 @@ pub struct AgentModel {
     /// Distance from each pose to each post, one row per pose.
     distances: Vec<u32>,
     bound: Option<Bound>,
-    /// Restrictions with known remaining costs, and the number of the current one.
+    /// Restrictions with known remaining costs; `now` is the index of the current one.
     choices: Vec<Choice>,
     now: usize,
 }
@@ -243,10 +243,12 @@ impl AgentModel {
         self.choices.push(Choice { allowed, after, limit, least, numbers: Map::default(), done: Vec::new() });
     }
 
-    /// Returns the limit of the current restriction. The remaining costs are too high for paths that cost more, so searches may miss them.
+    /// Returns the limit of the current restriction. For paths that cost more, the remaining costs can be too high, so searches may miss
+    /// such paths.
     pub fn limit(&self) -> u32 { self.choices[self.now].limit }
 
-    /// Raises the limit to `cost` or more if the computation is affordable. Returns whether the limit is now at least `cost`.
+    /// Raises the limit to `cost` or more if the computation is affordable. Returns whether the limit is now at least `cost`. If it is
+    /// raised, results of number() become invalid.
     pub fn raise_limit(&mut self, cost: u32) -> bool {
         let few = self.stops.len() <= MAX_STOPS_COMPLETE;
         if self.limit() < cost && (few || cost < self.choices[self.now].least + MAX_EXCESS) {
@@ -256,7 +258,7 @@ impl AgentModel {
         self.limit() >= cost
     }
 
-    /// Returns the number of a set of stops done, under the current restriction. Adds the set if it is new.
+    /// Returns the index of a set of stops done, under the current restriction. Adds the set if it is new.
     pub fn number(&mut self, stops: u64) -> u32 {
         let Choice { after, numbers, done, .. } = &mut self.choices[self.now];
         if let Some(&found) = numbers.get(&stops) { return found; }
@@ -273,8 +275,8 @@ impl AgentModel {
 
     pub fn done(&self, number: u32) -> u64 { self.choices[self.now].done[number as usize].stops }
 
-    /// Returns the least remaining cost from a pose with the stops done that set `number` has. If all paths through this state cost more
-    /// than the limit, the result can be too high or NEVER.
+    /// Returns the least remaining cost from a pose, with the stops in set `number` done. If all paths through this state cost more than
+    /// the limit, the result can be too high or NEVER.
     pub fn remains(&self, number: u32, pose: u32) -> u32 {
         let Done { stops, rest } = &self.choices[self.now].done[number as usize];
         if *stops == self.all() { return self.ends[pose as usize]; }

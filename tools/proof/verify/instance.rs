@@ -265,7 +265,8 @@ fn scenario(text: &str, count: u32) -> Result<Json, String> {
     Ok(object(map.into_iter().chain([("agents", Json::List(agents)), ("tasks", Json::List(Vec::new()))]).collect()))
 }
 
-/// Returns the path of the file `name` with all symbolic links resolved. Refuses a file that is not in the folder of `path` or below.
+/// Returns the path of the file `name` with all symbolic links resolved. Refuses an absolute `name`, and a file that is not in the folder
+/// of `path` or below.
 fn confined(path: &Path, name: &str) -> Result<PathBuf, String> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let inside = |folder: PathBuf| folder.join(name).canonicalize().ok().filter(|real| !Path::new(name).is_absolute() && real.starts_with(&folder) && real.is_file());

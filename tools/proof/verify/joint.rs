@@ -9,7 +9,7 @@ use crate::tokens::{Map, Set};
 /// A possible state of an agent at a time.
 struct Point {
     place: Place,
-    /// Numbers of the points at the next time that may follow.
+    /// Indices of the points at the next time that may follow.
     next: Vec<u32>,
     /// Whether a path may end here.
     ends: bool,
@@ -83,7 +83,7 @@ pub struct Joint {
 
 /// A joint state at a time.
 struct Node<'a> {
-    /// For each agent the number of its point, or RESTS + place.
+    /// For each agent the index of its point, or RESTS + place.
     key: &'a [u32],
     time: u32,
     /// For each agent, a lower bound on the sum of costs of this agent and all later ones, without agents at rest.
@@ -121,9 +121,9 @@ impl Joint {
 
     fn point(&self, agent: usize, time: u32, number: u32) -> &Point { &self.layers[agent].0[time as usize][number as usize] }
 
-    /// Extends `chosen`, which has (point, place before, place after) for the first agents, by each option of the next agent. Adds complete
-    /// joint states to `later`. `costs`: costs of the chosen agents that have come to rest, and a lower bound on the costs of the other
-    /// chosen agents. Returns true if it has found a plan, that is, all agents rest.
+    /// Extends `chosen`, which contains (point, place before, place after) for the first agents, by each option of the next agent. Adds
+    /// complete joint states to `later`. `costs`: costs of the chosen agents that have come to rest, and a lower bound on the costs of the
+    /// other chosen agents. Returns true if it has found a plan, that is, all agents rest.
     fn extend(
         &self, node: &Node, chosen: &mut Vec<(u32, Place, Place)>, costs: (u64, u64), later: &mut Map<Vec<u32>, u64>,
     ) -> bool {

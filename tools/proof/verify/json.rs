@@ -3,7 +3,7 @@
 pub enum Json {
     Other,
     Bool(bool),
-    /// A number without decimal point and exponent.
+    /// A number without decimal point and exponent that fits into an i64.
     Whole(i64),
     Real(f64),
     Text(String),

@@ -35,7 +35,7 @@ Verifies that a certificate proves its lower bound on the cost of every valid pl
 Exit codes: 0 'verified: ...', the bound is proven; 1 'refused: ...', it is not proven, or not within the limits;
 2 'unreadable: ...', a file is not a certificate or not an instance, or an option is wrong.";
 
-/// Number of the line that is being verified, for refusals from outside the verifier (limits, panics).
+/// Number of the line that is being verified; static for refusals from outside the verifier (limits, panics).
 static LINE: AtomicU64 = AtomicU64::new(0);
 /// Number of bytes that are currently allocated.
 static USED: AtomicU64 = AtomicU64::new(0);

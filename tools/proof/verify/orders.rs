@@ -4,7 +4,8 @@
 use crate::agent::NEVER;
 use crate::tokens::Map;
 
-/// Time steps by which the first limit exceeds the cost of the best order, or a lower bound on that cost.
+/// Time steps by which the first limit exceeds Bound::root, at least. The limit is raised until it exceeds the cost of the best order by as
+/// much.
 const SLACK: u32 = 2;
 
 /// Maximum number of cached trees. A larger cache is emptied.
@@ -93,10 +94,10 @@ impl Orders<'_> {
     }
 }
 
-/// Lower bound of Held and Karp. A path through all remaining stops to the end consists of an edge to one of them, a spanning tree of
-/// them, and an edge from one of them to the end. Each stop has a multiplier (`prices`) that is added to the cost of each of its edges.
+/// Lower bound of Held and Karp. A path through all remaining stops to the end consists of an edge to one of them, a spanning tree of them,
+/// and an edge from one of them to the end. Each stop has a multiplier (`prices`) that is added to the cost of each of its edges.
 /// Subgradient ascent changes the multipliers so that the degrees in the minimum tree approach those of a path. Any multipliers give a
-/// valid bound. All values are in 64ths of a time step.
+/// valid bound. All values except `root` are in 64ths of a time step.
 pub struct Bound {
     nodes: usize,
     /// Costs of edges, including the multipliers of both nodes. Nodes are the stops, the end and the start, in this order; the multipliers
@@ -105,6 +106,7 @@ pub struct Bound {
     prices: Vec<i64>,
     /// Cache, by set of remaining stops: value of tree() plus the durations of the stops.
     trees: Map<u64, i64>,
+    /// In time steps: a lower bound on the cost of the best order if no task execution is in progress at time 0; otherwise an estimate.
     root: u32,
 }
 

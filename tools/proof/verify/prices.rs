@@ -58,13 +58,14 @@ impl Prices {
         }
     }
 
-    /// Returns the prices that a step pays which arrives at `time`, in units.
+    /// Returns the sum of the prices, in units, that a step with arrival at `time` pays.
     fn step(&self, from: Place, to: Place, time: u32) -> u64 {
         let edge = if from == to { self.stay.get(&(from, time)) } else { self.go.get(&(from.min(to), from.max(to), time)) };
         edge.unwrap_or(&0) + self.at.get(&(to, time)).unwrap_or(&0)
     }
 
-    /// Returns the prices that a path pays at its end, in units: for resting on `place` after `time` forever, and for a cost of `time`.
+    /// Returns the sum of the prices, in units, that a path pays at its end: for resting on `place` after `time` forever, and for a cost of
+    /// `time`.
     fn end(&self, agent: u32, place: Place, time: u32) -> u64 {
         let rows = self.rests.get(&place).map_or(&[][..], Vec::as_slice);
         let rest = rows.get(rows.partition_point(|row| row.0 <= time)).map_or(0, |row| row.1);
@@ -73,7 +74,8 @@ impl Prices {
     }
 
     /// Returns the minimum, over the paths of an agent, of the cost plus the prices that the path pays, in units. If paths that cost more
-    /// than the limit of the model could be less, returns a lower bound on the minimum. Returns None if there is no path.
+    /// than the limit of the model could have a smaller sum, returns a lower bound on the minimum. Returns None if the limit is NEVER and
+    /// there is no path.
     pub fn of(&self, agent: u32, successors: &mut Successors) -> Option<u64> {
         let limit = successors.model.limit();
         let beyond = UNIT * (u64::from(limit) + 1);

@@ -188,7 +188,7 @@ impl Verifier {
     /// Reads and verifies the proof of a statement. `line` is its first line.
     fn proof(&mut self, mut line: String, of: &Lemma) -> Result<(), Fault> {
         of.constraints.iter().for_each(|&constraint| self.push(constraint));
-        // For each open split, the length of the trail before it, and its second branch unless the proof of that has started.
+        // For each open split, the length of the trail before it, and its second branch (None once the proof of that branch has started).
         let mut splits: Vec<(usize, Option<Constraint>)> = Vec::new();
         loop {
             self.nodes += 1;
@@ -355,7 +355,7 @@ impl Verifier {
         let (agents, places) = (self.models.len(), self.instance.world.links.len());
         ensure(of.agents.len() == agents && self.trail.is_empty(), "prices require all agents, without constraints")?;
         let mut prices = Prices::default();
-        let price = |tokens: &mut Tokens| tokens.number().map(u64::from);  // below 2^32, so sums do not overflow
+        let price = |tokens: &mut Tokens| tokens.number().map(u64::from);  // below 2^30, so sums do not overflow
         loop {
             let line = self.line()?;
             let mut tokens = Tokens::of(&line);

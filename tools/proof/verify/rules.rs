@@ -29,7 +29,7 @@ pub struct Chain {
 
 /// All chains of a world.
 pub struct Chains {
-    /// For each place the number of its chain, or NONE.
+    /// For each place the index of its chain, or NONE.
     of: Vec<u32>,
     chains: Vec<Chain>,
 }
@@ -67,7 +67,7 @@ impl Chains {
         1 + u8::from(second)
     }
 
-    /// Returns the number of the chain that a step from `inner` to `end` leaves, the side (1 or 2) on which it leaves, and the chain.
+    /// Returns the index of the chain that a step from `inner` to `end` leaves, the side (1 or 2) on which it leaves, and the chain.
     /// Returns None if `inner` and `end` are not the last place of a chain and the end next to it.
     pub fn exit(&self, inner: Place, end: Place) -> Option<(u32, u8, &Chain)> {
         let number = self.of[inner as usize];
@@ -123,7 +123,7 @@ impl Rules {
     }
 
     /// Replaces the rules by those for `constraints`, which are on the agent of `model`, and restricts the order of stops in the model.
-    /// Returns false if the agent would have to rest on two different places.
+    /// Returns false, and leaves the rules incomplete, if the agent would have to rest on two different places.
     pub fn set(&mut self, model: &mut AgentModel, chains: &Chains, constraints: &[Constraint]) -> bool {
         self.stamp += 1;
         self.moves.clear();
@@ -187,32 +187,32 @@ impl Rules {
         if from != u32::MAX && to != u32::MAX && end != u32::MAX && from <= to.min(end) { self.safe.push((from, to.min(end))); }
     }
 
-    /// Returns the numbers of the time intervals in which this place is free.
+    /// Returns the indices of the time intervals in which this place is free.
     pub fn intervals(&self, place: Place) -> std::ops::Range<u32> {
         self.marked(place).map_or(0..1, |mark| mark.first..mark.first + mark.count)
     }
 
     pub fn interval(&self, number: u32) -> (u32, u32) { self.safe[number as usize] }
 
-    /// Returns the number of the first free interval of a place that ends at `time` or later; one past the last if none does.
+    /// Returns the index of the first free interval of a place that ends at `time` or later; one past the last if none does.
     pub fn ending(&self, place: Place, time: u32) -> u32 {
         let range = self.intervals(place);
         let slice = &self.safe[range.start as usize..range.end as usize];
         range.start + slice.partition_point(|interval| interval.1 < time) as u32
     }
 
-    /// Returns the number of the free interval of a place that contains `time`. Returns None if the place is not free then.
+    /// Returns the index of the free interval of a place that contains `time`. Returns None if the place is not free then.
     pub fn holding(&self, place: Place, time: u32) -> Option<u32> {
         Some(self.ending(place, time)).filter(|&number| number < self.intervals(place).end && self.safe[number as usize].0 <= time)
     }
 
-    /// Returns the first arrival time after which the agent may rest on the place.
+    /// Returns the least arrival time from which on the agent may rest on the place.
     pub fn rest_from(&self, place: Place) -> u32 { self.marked(place).map_or(0, |mark| mark.rest) }
 
     pub fn arrived(&self, place: Place, time: u32) -> Flags { if time < self.rest_from(place) { EARLY } else { 0 } }
 
-    /// Returns the flags after a step between two places and, if the step completes a traversal of a chain, the number of the chain and
-    /// the side on which the step leaves it.
+    /// Returns the flags after a step between two places and, if the step completes a traversal of a chain that a Pass constraint names,
+    /// the index of the chain and the side on which the step leaves it.
     pub fn passing(&self, chains: &Chains, flags: Flags, from: Place, to: Place) -> (Flags, Option<(u32, u8)>) {
         let known = |place: Place| Some(chains.of[place as usize]).filter(|&chain| self.passes.iter().any(|pass| pass.0 == chain));
         if self.passes.is_empty() { return (0, None); }

@@ -14,11 +14,11 @@ pub type Path = Vec<(u32, Place)>;
 
 #[derive(Default)]
 pub struct Search {
-    /// Open labels in buckets. The number of a bucket is the lower bound of its labels minus that of the start.
+    /// Open labels in buckets. The index of a bucket is the lower bound of its labels minus that of the start.
     waiting: Vec<Vec<Label>>,
     /// Expanded labels. A label's kind is its state and interval; the first expanded label of a kind is the earliest.
     labels: Vec<Label>,
-    /// Hash table of the kinds of expanded labels: pose, number of the stops done, interval, and `searches` << 4 | flags.
+    /// Hash table of the kinds of expanded labels: pose, index of the set of stops done, interval, and `searches` << 4 | flags.
     table: Vec<[u32; 4]>,
     pub searches: u32,
 }

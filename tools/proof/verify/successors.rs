@@ -4,7 +4,8 @@ use crate::agent::{AgentModel, NEVER};
 use crate::instance::Place;
 use crate::rules::{Chains, Rules, Flags, EARLY};
 
-/// A state of an agent. `done`: number of its set of stops done; `left`: remaining time steps of the task execution at the last of them.
+/// A state of an agent. `done`: index of its set of stops done, from AgentModel::number(); `left`: remaining time steps of the task
+/// execution at the last of them.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct State {
     pub pose: u32,
@@ -13,7 +14,7 @@ pub struct State {
     pub flags: Flags,
 }
 
-/// A state, the number of a time interval in which its place is free, and the arrival time, which is in this interval.
+/// A state, the index of a time interval in which its place is free, and the arrival time, which is in this interval.
 pub type Arrival = (State, u32, u32);
 
 pub struct Successors<'a> {

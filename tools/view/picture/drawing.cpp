@@ -177,8 +177,8 @@ std::vector<Drawing::Robot> Drawing::robots(double time) const {
 }
 
 // Marks robots that are on one place at the last whole step, robots that swap places in the current
-// step and, in its second half, robots that move to one place. At a whole step, marks robots that
-// swapped places in the previous step.
+// step and, in its second half, robots that move to one place. At a whole step it marks the robots
+// that swapped places in the previous step instead.
 void Drawing::mark_collisions(std::vector<Robot>& robots, double time) const {
   const auto step = static_cast<Time>(std::floor(time));
   const double part = time - step;

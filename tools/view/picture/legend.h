@@ -8,7 +8,7 @@
 
 namespace grove::detail {
 
-// Draws the legend in one line from the origin. Leaves out shapes that the picture does not have.
+// Draws the legend in one line from the origin. Leaves out shapes that cannot occur in the picture.
 void draw_legend(cairo_t* cairo, const Instance& instance, bool has_plan);
 
 }  // namespace grove::detail
