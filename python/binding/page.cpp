@@ -16,7 +16,7 @@ namespace {
 // Returns the HTML page that shows an instance and at most two solutions, each with its name.
 std::string page(const Instance& instance, const std::string& title,
                  const std::vector<std::pair<std::string, SolutionOfInstance>>& solutions) {
-  return translated([&] {
+  return with_public_exceptions([&] {
     const detail::Instance& inner = Access::instance(instance);
     std::vector<detail::NamedPlan> plans;
     for (const auto& [name, solution] : solutions)
@@ -26,13 +26,13 @@ std::string page(const Instance& instance, const std::string& title,
 }
 
 void write_file(const std::filesystem::path& path, const std::string& bytes) {
-  translated([&] { detail::write_file_atomically(path, bytes); });
+  with_public_exceptions([&] { detail::write_file_atomically(path, bytes); });
 }
 
 py::bytes picture(const Instance& instance, const std::optional<PlanOfInstance>& plan,
                   const std::string& kind, const std::vector<double>& moments, int width,
                   double speed) {
-  return translated([&]() -> std::string {
+  return with_public_exceptions([&]() -> std::string {
     const detail::Instance& inner = Access::instance(instance);
     std::optional<detail::Plan> own;
     if (plan) own = plan_of(inner, *plan->plan);

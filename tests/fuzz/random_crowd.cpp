@@ -118,7 +118,7 @@ CrowdBoard open_board(int places) {
   const int width = std::max(3, static_cast<int>(std::sqrt(places)));
   const int height = std::max(3, (places + width - 1) / width);
   auto rows = wall(width, height);
-  for (std::string& row : rows) std::ranges::walk_free_place(row, '.');
+  for (std::string& row : rows) std::ranges::fill(row, '.');
   return on_grid(CrowdBoard::Kind::kOpen, rows);
 }
 
@@ -140,7 +140,7 @@ CrowdBoard two_rooms(int places) {
 CrowdBoard room_with_tail(int places, int tail) {
   const int side = std::max(3, static_cast<int>(std::sqrt(std::max(9, places - tail))));
   auto rows = wall(side + tail, side);
-  for (std::string& row : rows) std::walk_free_place(row.begin(), row.begin() + side, '.');
+  for (std::string& row : rows) std::fill(row.begin(), row.begin() + side, '.');
   std::vector<Position> marked;
   for (int x = side + tail - 1; x >= side; --x) {
     rows[0][x] = '.';

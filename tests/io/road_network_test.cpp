@@ -87,7 +87,7 @@ TEST(RoadNetwork, OppositeRoadsOfEqualLengthAreMerged) {
   const OppositeRoads count = opposite_roads(roads);
   EXPECT_EQ(count.alike, 2);   // 0 and 3, 5 and 6
   EXPECT_EQ(count.unlike, 2);  // 2 and 7, 1 and 4
-  EXPECT_EQ(count.of_step, 1);
+  EXPECT_EQ(count.single_step, 1);
   const std::vector<Road> merged = with_merged_lanes(roads);
   ASSERT_EQ(merged.size(), 7u);
   EXPECT_EQ(merged[0].steps, 3);

@@ -110,11 +110,11 @@ void warn_of_opposite_roads(const std::vector<Road>& roads, const ConvertArgumen
     warnings.push_back(fmt::format(
         "{}: {} pairs of opposite edges take different numbers of steps and remain two lanes each",
         one_line(arguments.instance), count.unlike));
-  if (!arguments.merges_lanes && count.of_step > 0)
+  if (!arguments.merges_lanes && count.single_step > 0)
     warnings.push_back(fmt::format(
         "{}: robots cannot pass one another on {} of these pairs, which take one step; use shorter "
         "steps to allow it",
-        one_line(arguments.instance), count.of_step));
+        one_line(arguments.instance), count.single_step));
   print_warnings(warnings);
 }
 
