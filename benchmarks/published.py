@@ -6,8 +6,8 @@
                            docs/researchers.md), and every cell of its comparison (results/paper/cells.md)
     published.py --write   writes the tables into these pages
 
-Our runs are in results/paper/results.csv, the published values in results/paper/published.csv. This program contains
-no values.
+Our runs are in results/paper/results.csv, the published values in results/paper/published.csv. This program itself
+contains no results.
 """
 import argparse
 import csv
@@ -76,7 +76,10 @@ def pairs(cells, firsts, others):
 
 
 def largest(cells, ratio):
-    """Returns, as text, the largest ratio of an adaptation to a baseline and the first cell where it occurs."""
+    """Returns, as text, the largest ratio of an adaptation to a baseline, and the first cell where it occurs.
+
+    Only cells count in which each of the two methods solves an instance.
+    """
     found = [(ratio(one, other), cell, name, second)
              for cell, name, one, second, other in pairs(cells, ADAPTATIONS, BASELINES) if one.solved and other.solved]
     value, cell, name, second = max(found, key=lambda each: each[0])
@@ -92,7 +95,7 @@ def speed_up(cells):
 
 
 def losses(cells, methods, baselines):
-    """Returns [(relative loss of mean SQR against a baseline, cell, method)] where both solve an instance."""
+    """Returns [(relative loss of mean SQR against a baseline, cell, method)] for cells where both solve instances."""
     return [(1 - one.mean_sqr / other.mean_sqr, cell, method)
             for cell, method, one, _, other in pairs(cells, methods, baselines) if one.solved and other.solved]
 
@@ -166,7 +169,10 @@ def runtime_c(cells):
 
 
 def quality_c(cells):
-    """Returns the mean SQRs of A, C and B in the easiest and the hardest third of the cells by A's success rate."""
+    """Returns the mean SQRs of A, C and B in the easiest and the hardest third of the cells by A's success rate.
+
+    Only cells count in which each of the three solves an instance.
+    """
     both = sorted(((lines[A].success, lines) for lines in cells.values() if lines[A].solved and lines[B].solved and lines[C].solved),
                   key=lambda entry: -entry[0])
     third = max(1, len(both) // 3)
