@@ -9,7 +9,6 @@ selects the bug of a process. For each bug, and each part of the search that the
 solves N tiny instances and checks their certificates with grove-verify. Prints one table for each kind of result. A row
 counts for one bug the claims that were false (the oracle knows the optimum), the certificates that were refused or proved
 less than was claimed, and the false claims that were verified. Exit code 1: a false claim was verified.
-
 """
 import argparse
 import collections
