@@ -4,10 +4,9 @@
 
     snippets_test.py DOCUMENT COMPILER LIBRARY INSTANCE INCLUDE_DIR...
 
-A ```cpp block with a main() is a program. All other blocks form, in order, the main() of one more
-program, which is linked with LIBRARY and runs in a folder where INSTANCE is depot.cts.json. If LIBRARY does not exist, it
-is only compiled. Programs that include mpi.hpp
-are skipped if no INCLUDE_DIR has mpi.h.
+A ```cpp block with a main() is a program. All other blocks form, in order, the main() of one more program, which is
+linked with LIBRARY and runs in a folder where INSTANCE is depot.cts.json. If LIBRARY does not exist, this program is
+only compiled. Programs that include mpi.hpp are skipped if no INCLUDE_DIR contains mpi.h.
 """
 import re
 import shutil
