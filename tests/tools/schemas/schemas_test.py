@@ -342,7 +342,7 @@ class RefusedFiles(Case):
                 "trace": [{"file": "{output}", "regex": "(.) (.)", "groups": ["cost", "seconds"]}]}
 
     def each_place(self, value, path=()):
-        """Yields (path, value) of each nested value, but only of the first entry of each list. Skips stats and about."""
+        """Yields (path, value) of each nested value. Skips stats, about, and all but the first entry of each list."""
         yield path, value
         if isinstance(value, dict):
             for key, inner in value.items():
