@@ -269,7 +269,7 @@ def simulated_table(rows, free):
 
 
 def earlier_table(earlier, now):
-    """Returns a table that compares the results of an earlier version with the current results, where they exist."""
+    """Returns a table of the results of an earlier version, each beside the current result if there is one."""
     present = {(row["instance"], row["ranks"]): row for row in now}
     head = ["instance", "ranks", "time", "time now", "efficiency", "efficiency now", "search overhead",
             "search overhead now"]

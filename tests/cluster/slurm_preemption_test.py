@@ -38,7 +38,7 @@ class PreemptScript:
         return path.read_text(encoding="utf-8") if path.exists() else ""
 
     def rows(self, since=0):
-        """Returns the rows of the log, from position `since`, that have an incumbent."""
+        """Returns one entry for each row with an incumbent in the log from position `since` on."""
         return re.findall(r"^[A-Z* ]( +\d+){5} ", self.log()[since:], re.M)
 
     def job_is(self, **fields):

@@ -159,7 +159,7 @@ class Generated(unittest.TestCase):
 
     @staticmethod
     def simple(certificate):
-        """Returns whether each split of the certificate is also valid without `following no`."""
+        """Returns whether each split of a certificate with `following no` is also valid with `following yes`."""
         return all(len(set(re.findall(r"bar \d+ (\d+)", line))) == 1 for line in certificate.split("\n") if " bar " in line)
 
 

@@ -48,7 +48,7 @@ class World:
         return y * self.width + x if inside and self.passable(y * self.width + x) else None
 
     def chain(self, place):
-        """Returns the chain of interior places that contains `place`, including both ends, or None if there is none."""
+        """Returns the chain with `place` in its interior, from end to end, or None if there is none."""
         if len(self.near[place]) != 2:
             return None
         row = [place]

@@ -115,8 +115,8 @@ def missing_line(shown, output):
 
 
 def start_shell(folder):
-    """Writes the initial state of a document's shell (its folder; each block adds its variables) and returns the
-    path of the file."""
+    """Writes the initial state of a document's shell (PATH and folder) and returns the path of the file. Each block
+    replaces it by the state at its end."""
     state = folder / ".shell"
     state.write_text(f'export PATH="{folder}/build/release/bin:$PATH"\ncd "{folder}"\n', encoding="utf-8")
     return state
