@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Measures the speed-up by threads and ranks on instances of some thousand nodes (omega 0).
+"""Measures the speed-up by threads and ranks on instances of thousands of nodes (omega 0).
 
     benchmarks/parallel.py [--modes 2-threads 2-ranks ...] [--repeat 3] [--maps FOLDER] [--bin BIN_DIR]
 
