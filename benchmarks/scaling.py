@@ -33,8 +33,8 @@ from harness.programs import MPIRUN, add_folders, median_optimum, optimum, run
 
 HERE = Path(__file__).resolve().parent
 
-# Each of these cases takes 70,000 to 260,000 nodes to the optimum. A simulation takes as long as a run on one rank, and
-# longer if the ranks expand more nodes.
+# Each of these cases is solved to the optimum after 70,000 to 260,000 nodes. A simulation takes as long as a run on one
+# rank, and longer if the ranks expand more nodes.
 HARD = [Case("room-32-32-4", 22, 40, 2), Case("random-32-32-20", 50, None, 1),
         Case("room-32-32-4", 40, None, 4)]
 # Each of these cases takes minutes on one core and at least 10^6 nodes. data/long contains their start plans.
