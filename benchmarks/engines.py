@@ -34,7 +34,7 @@ def make_tiny(grove, folder, count):
 
 
 def by_threads(grove, instances, threads, limit, folder):
-    """Solves the instances with a number of threads and returns {instance: proven optimum or None}."""
+    """Solves the instances on `threads` threads and returns {instance: proven optimum or None}."""
     found = {}
     for path in instances:
         found_plan = answer([grove, "solve", path, "--omega", 0, "--threads", threads, "--time-limit", limit],

@@ -11,8 +11,8 @@
 Instances come from `grove generate instance` and the scenarios <map>-random-<k>.scen. Every plan of Grove, and
 paths of other solvers, are checked with `grove check`. Claims that contradict each other, such as a plan below a
 proven bound, are reported on standard error. Options after `--` are passed to `grove solve`, which uses one thread
-without `--threads`. Cases without a map are skipped and reported. The tables are Markdown; --csv writes a row per
-run, also for `grove report`.
+without `--threads`. Cases whose map or scenario is missing are skipped and reported. The tables are Markdown; --csv
+writes a row per run, also for `grove report`.
 Exit codes: 0 all ran, 1 some failed, claims contradict each other, or nothing ran, 2 wrong usage.
 """
 
@@ -170,7 +170,10 @@ def parse(words):
 
 
 def report_problems(rows):
-    """Reports contradictions and failed runs on standard error and returns whether there are any."""
+    """Reports contradictions, failed runs and unchecked claims on standard error.
+
+    Returns whether there are contradictions or failed runs.
+    """
     found = contradictions([row_of(row, row["instance"]) for row in rows])
     if found:
         print("PROOFS CONTRADICT EACH OTHER: not all of these claims can be true", file=sys.stderr)

@@ -4,8 +4,10 @@
 
     overhead.py [BUILD]        (default: build/release)
 
-Solves benchmarks/data/random-32x32-20_n5_m10.cts.json (5 agents, 10 tasks) to the optimum. Reports the median of 200
-solves, or of 30 runs of the program. Needs public_api_benchmark and the Python module.
+Solves benchmarks/data/random-32x32-20_n5_m10.cts.json (5 agents, 10 tasks). Reports medians: of 5 repetitions of the
+C++ benchmarks, of 200 solves in Python, and of 30 runs of the program. Needs public_api_benchmark and the Python
+module. Only the search alone and the program run with omega 0 and one thread. grove::solve() and grove.solve() run with
+their default options.
 """
 import json
 import statistics

@@ -7,10 +7,10 @@
 
 Comparison: MG-MAPF on three maps, CTS-CBS-A, -B and -C and four baselines at the paper's omega. Study of
 omega: CTS-MAPF on rooms with the fewest agents, the paper's CTS-CBS at omega 0, 0.01, 0.1 and infinity.
-Both include Grove's own search, which proves the optimum.
+Both include Grove's own search at omega 0.
 
-The same command resumes an earlier one, also with more scenarios, agents or tasks. OUT/report/report.html is the
-report of all results in OUT.
+The same command resumes an earlier run, also with more scenarios, agents or tasks, but only with the same maps and
+time limit. OUT/report/report.html is the report of all results in OUT.
 """
 import argparse
 import json
@@ -36,9 +36,9 @@ STUDY = {"auto": "--omega 0"} | {f"cts-cbs_{omega}": f"--policy fixed --omega {o
 
 
 def run(*words):
-    """Runs a command and exits with its exit code unless that is 0.
+    """Runs a command. If it fails, exits with its exit code, or with 128 + N if signal N ended it.
 
-    The command has its own process group, so it receives only the signals that this program passes on.
+    The command has its own process group, so it receives Ctrl-C only through this program.
     """
     try:
         child = subprocess.Popen([str(word) for word in words], process_group=0)

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Measures the speed-up by threads and ranks on instances of some thousand nodes (omega 0).
+"""Measures the speed-up by threads and ranks on instances of thousands of nodes (omega 0).
 
     benchmarks/parallel.py [--modes 2-threads 2-ranks ...] [--repeat 3] [--maps FOLDER] [--bin BIN_DIR]
 
-Each mode is compared with one thread in the same run: speed-up, change in the number of nodes, and for ranks
+Each mode is compared with one thread in the same run: speed-up, change in the number of nodes, and, for ranks,
 messages and bytes per node. Values are medians of the repetitions. They are meaningless on a machine with other load.
 """
 import argparse
@@ -25,7 +25,7 @@ MODES = ["2-threads", "4-threads", "1-ranks", "2-ranks", "4-ranks", "8-ranks",
 
 
 def command(mode, programs):
-    """Returns the command for a mode as (words up to the subcommand, options after the instance)."""
+    """Returns the command for a mode as (words before the subcommand, options after the instance)."""
     kind, number = sorted(mode.split("-"), key=str.isdigit)
     if kind == "ranks":
         binding = [] if int(number) <= (os.cpu_count() or 1) else ["--oversubscribe", "--bind-to", "none"]

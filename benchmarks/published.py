@@ -7,8 +7,8 @@
                            (results/paper/configurations.md)
     published.py --write   writes the tables into these pages
 
-Our runs are in results/paper/results.csv, the published values in results/paper/published.csv. This program contains
-no values.
+Our runs are in results/paper/results.csv, the published values in results/paper/published.csv. This program itself
+contains no results.
 """
 import argparse
 import csv
@@ -78,8 +78,10 @@ def pairs(configurations, firsts, others):
 
 
 def largest(configurations, ratio):
-    """Returns, as text, the largest ratio of an adaptation to a baseline, and the first configuration
-    where it occurs."""
+    """Returns, as text, the largest ratio of an adaptation to a baseline, and the first configuration where it occurs.
+
+    Only configurations count in which each of the two methods solves an instance.
+    """
     found = [(ratio(one, other), configuration, name, second)
              for configuration, name, one, second, other in pairs(configurations, ADAPTATIONS, BASELINES)
              if one.solved and other.solved]
@@ -96,7 +98,7 @@ def speed_up(configurations):
 
 
 def losses(configurations, methods, baselines):
-    """Returns [(relative loss of mean SQR against a baseline, configuration, method)] where both solve an instance."""
+    """Returns [(relative loss of mean SQR against a baseline, configuration, method)] for configurations where both solve instances."""
     return [(1 - one.mean_sqr / other.mean_sqr, configuration, method)
             for configuration, method, one, _, other in pairs(configurations, methods, baselines)
             if one.solved and other.solved]
@@ -174,8 +176,10 @@ def runtime_c(configurations):
 
 
 def quality_c(configurations):
-    """Returns the mean SQRs of A, C and B in the easiest and the hardest third of the configurations, in the order of
-    A's success rate."""
+    """Returns the mean SQRs of A, C and B in the easiest and the hardest third of the configurations by A's success rate.
+
+    Only configurations count in which each of the three solves an instance.
+    """
     both = sorted(((lines[A].success, lines) for lines in configurations.values()
                    if lines[A].solved and lines[B].solved and lines[C].solved),
                   key=lambda entry: -entry[0])

@@ -3,7 +3,7 @@
 """Measures the scaling of the distributed search: simulated with up to 4096 ranks, and checked with real ranks.
 
     benchmarks/scaling.py simulate --maps FOLDER [--jobs 2]        three hard instances: simulated.csv
-    benchmarks/scaling.py long --ranks 1,128                  instances of minutes: long.csv
+    benchmarks/scaling.py long --ranks 1,128                       instances that take one core minutes: long.csv
     benchmarks/scaling.py weak                                 weak scaling: weak.csv
     benchmarks/scaling.py bound --maps FOLDER                      zero-cost communication: bound.csv
     benchmarks/scaling.py compare --maps FOLDER                    2 ranks, simulated and measured: compared.csv
@@ -11,9 +11,9 @@
     benchmarks/scaling.py draw                                     scaling.png from these; needs matplotlib
     benchmarks/scaling.py tables                                   tables in Markdown, to stdout
 
-All commands read and write the folder --output. Every run starts from an optimal plan, which is computed first, and
-uses no primal heuristics. Therefore the set of nodes to expand hardly depends on the number of ranks.
-results/scaling/README.md has the results.
+All commands use the folder --output. Every run starts from a plan and uses no primal heuristics. Therefore the set of
+nodes to expand hardly depends on the number of ranks. The start plan is in data/long, or is computed first and optimal.
+results/scaling/README.md contains the results.
 """
 import argparse
 import concurrent.futures
@@ -33,11 +33,11 @@ from harness.programs import MPIRUN, add_folders, median_optimum, optimum, run
 
 HERE = Path(__file__).resolve().parent
 
-# These cases are solved to the optimum after about 10^5 nodes. A simulation takes as long as a run on one rank, and
-# longer if the ranks expand more nodes.
+# Each of these cases is solved to the optimum after 70,000 to 260,000 nodes. A simulation takes as long as a run on one
+# rank, and longer if the ranks expand more nodes.
 HARD = [Case("room-32-32-4", 22, 40, 2), Case("random-32-32-20", 50, None, 1),
         Case("room-32-32-4", 40, None, 4)]
-# Each of these cases takes one core minutes and at least 10^6 nodes. data/long has their start plans.
+# Each of these cases takes minutes on one core and at least 10^6 nodes. data/long contains their start plans.
 OPEN = "map random --width 32 --height 32 --obstacles 0.2 --seed 1"
 ROOMS = "map rooms --width 32 --height 32 --seed 1"
 WAREHOUSE = "roadmap --kind warehouse"
@@ -45,7 +45,7 @@ LONG = [DrawnCase("rooms-50-mapf", ROOMS, 50, None, 1), DrawnCase("open-60-mapf"
          DrawnCase("open-40-40", OPEN, 40, 40, 1), DrawnCase("rooms-25-60-mg", ROOMS, 25, 60, 1, mg=True),
          DrawnCase("rooms-25-50-mg", ROOMS, 25, 50, 1, mg=True),
          DrawnCase("warehouse-100-200", WAREHOUSE, 100, 200, 1)]
-# Cases of increasing size for weak scaling, each with a larger number of ranks.
+# Cases of increasing size for weak scaling: the number of ranks grows with the time on one rank.
 WEAK = [DrawnCase(f"rooms-{agents}-mapf", ROOMS, agents, None, 1) for agents in (40, 43, 45, 50)]
 # Each of these cases takes seconds on one core, for measurements on the current machine.
 SHORT = [Case("room-32-32-4", 20, 20, 3), Case("room-32-32-4", 20, 30, 3),
@@ -66,7 +66,10 @@ def until_bound_of(plan):
 
 
 def prepared(case, a, folder):
-    """Returns the arguments for a case and its start plan: the plan in data/long if it exists, else an optimal plan."""
+    """Returns the arguments of a solve: the case, its start plan and omega.
+
+    The start plan is the one in data/long. If there is none, computes an optimal plan.
+    """
     instance = instance_arguments(a.bin / "grove", Maps(a.maps), case, folder)
     kept = HERE / f"data/long/{case}.plan.json"
     if kept.exists():
@@ -77,7 +80,7 @@ def prepared(case, a, folder):
 
 
 def simulated(case, problem, ranks, a, folder, machine=()):
-    """Simulates a case and returns a row per number of ranks, without runs that reached a limit."""
+    """Simulates a case and returns a row per number of ranks. Prints runs that reached a limit instead."""
     table = folder / "table.csv"
     run([a.bin / "grove-sim", *problem, "--ranks", ",".join(map(str, ranks)), "--seconds-per-work",
          a.cost_per_work, "--memory-limit", a.memory_limit, "--output", table, *machine])
@@ -117,7 +120,7 @@ def chosen(cases, a):
 
 
 def merge(path, rows):
-    """Replaces the rows in a file that have the same instance and number of ranks as new rows. Keeps all other rows."""
+    """Adds rows to a file, sorted by instance and number of ranks. They replace rows in which both are the same."""
     def key(row):
         return order.index(row["instance"]), int(row.get("ranks", 0))
 
@@ -149,7 +152,7 @@ def long(a):
 
 
 def ranks_for(alone, seconds):
-    """Returns the number of ranks, at least 2, among which a run on one rank divides into parts of about `seconds`."""
+    """Returns the number of ranks, at least 2, that divides a run on one rank into parts of about `seconds`."""
     return max(2, round(float(alone["wall_s"]) / seconds))
 
 
@@ -266,7 +269,7 @@ def simulated_table(rows, free):
 
 
 def earlier_table(earlier, now):
-    """Returns a table that compares the results of an earlier version with the current results, where they exist."""
+    """Returns a table of the results of an earlier version, each beside the current result if there is one."""
     present = {(row["instance"], row["ranks"]): row for row in now}
     head = ["instance", "ranks", "time", "time now", "efficiency", "efficiency now", "search overhead",
             "search overhead now"]

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-# Finds the dependencies of the build. All are Debian packages listed in tools/packages; nothing is downloaded. The
-# folders of tests and benchmarks find their own dependencies (tools/packages.test, tools/packages.test-all).
+# Finds dependencies of the build. All are Debian packages listed in tools/packages; nothing is downloaded. Dependencies
+# of a single folder are found there: in tools, tools/view and tools/proof, and in tests and benchmarks
+# (tools/packages.test, tools/packages.test-all). GrovePython.cmake finds those of the Python module.
 find_package(fmt REQUIRED)
 find_package(nlohmann_json 3.10 REQUIRED)
 find_package(yaml-cpp 0.7 REQUIRED)

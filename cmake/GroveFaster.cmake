@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Optional tools and flags that make builds faster.
 
-# ccache keeps compiler results between builds. Because of precompiled headers it must ignore time stamps, and it gets
-# the list of included files from the compiler (depend mode).
+# ccache keeps compiler results between builds. With precompiled headers it must ignore macros such as __TIME__ and
+# changed #defines. It gets the list of included files from the compiler (depend mode).
 find_program(GROVE_CCACHE ccache)
 if(GROVE_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER

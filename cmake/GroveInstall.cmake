@@ -101,7 +101,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/benchmarks/data/
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT programs
   FILES_MATCHING PATTERN "*.map" PATTERN "*.scen" PATTERN "*.json")
 # Helper programs that grove executes, for instance for `grove report`, are installed in a separate folder, because
-# users do not call them directly. The folder has a link to grove for helper programs that call grove.
+# users do not call them directly. The folder contains a link to grove for helper programs that call it.
 set(grove_helper_programs ${CMAKE_INSTALL_LIBEXECDIR}/grove)
 install(TARGETS grove-follow RUNTIME DESTINATION ${grove_helper_programs} COMPONENT programs)
 install(TARGETS grove-picture RUNTIME DESTINATION ${grove_helper_programs} COMPONENT pictures)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The installed library, which has the public API and all layers below it in one file, shared or static.
+# The installed library, which contains the public API and the layers that it needs in one file, shared or static.
 set(grove_library_layers model execution io sequencing planning joint lagrangian conflicts search primal baselines engine api)
 list(TRANSFORM grove_library_layers PREPEND grove_)
 
@@ -22,7 +22,7 @@ target_link_libraries(grove_library PRIVATE grove_api)
 target_link_options(grove_library PRIVATE -Wl,--exclude-libs,ALL)
 set_target_properties(grove_library PROPERTIES EXPORT_NAME grove)
 
-# A second library with the same content and grove::mpi::solve(). A program links only one of the two libraries.
+# A second shared library with the same content and grove::mpi::solve(). A program links only one of the two.
 if(GROVE_WITH_MPI)
   add_library(grove_mpi_library SHARED $<TARGET_OBJECTS:grove_api> ${PROJECT_SOURCE_DIR}/mpi/public_api.cpp)
   add_library(grove::mpi ALIAS grove_mpi_library)

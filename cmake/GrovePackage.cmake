@@ -51,7 +51,7 @@ set(grove_same "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 
 set(CPACK_COMPONENTS_ALL "")
 # Depends on python3, because three commands are Python programs. Other packages are only suggested, because few users
-# need them and they would install MPI, X11 or a hundred packages. A command reports a package that it misses.
+# need them and they would install MPI, X11 or a hundred packages. A command names a missing package that it needs.
 grove_package(programs grove science
   "solver for multi-agent path finding with tasks and proven bounds"
   "${grove_what}the programs: grove; grove-sim, which predicts the

@@ -60,7 +60,7 @@ def parameters(arguments):
 
 
 def signature(name, node):
-    """Returns the signature in as few lines of at most WIDTH columns as possible."""
+    """Returns the signature on one line if it fits WIDTH columns, otherwise with the parameters on indented lines."""
     result = code_text(node.returns)
     tail = ")" + (f" -> {result}" if result != "None" else "")
     parts = parameters(node.args)
@@ -83,7 +83,8 @@ def doc_of(thing, name):
 
 
 def markdown(text):
-    """Converts a docstring to Markdown. `name: text` lines become list items, paragraphs that start with >>> code."""
+    """Converts a docstring to Markdown. `name: text` lines become list items, paragraphs that start with >>> become
+    code."""
     blocks = []
     for paragraph in re.split(r"\n\s*\n", text):
         if paragraph.startswith(">>>"):

@@ -31,8 +31,8 @@ make_bare_debian() {
   inside "$root" root useradd --create-home --shell /bin/bash someone
 }
 
-# inside ROOT USER COMMAND...: runs a command as a user in that Debian. The command shares the kernel and the network
-# with this machine, but no files. When it ends, its mounts and all its processes end.
+# inside ROOT USER COMMAND...: runs a command as a user in the Debian in ROOT. The command shares the kernel and the
+# network with this machine, but no files. When it ends, its mounts and all its processes end.
 inside() {
   local root=$1 user=$2 home
   shift 2

@@ -33,8 +33,8 @@ install_missing() {
     switch_off_daemons "$@"
 }
 
-# switch_off_daemons [PREFIX...]: disables the daemons among `missing`. Debian starts a daemon when it is installed and
-# at every boot, but the tests start their own. Daemons that were installed before are not changed.
+# switch_off_daemons [PREFIX...]: disables the daemons of munge and Slurm if they are in `missing`. Debian starts them
+# after the installation and at every boot, but the tests start their own. Daemons installed before are not changed.
 switch_off_daemons() {
   local package
   [ -d /run/systemd/system ] || return 0
@@ -58,7 +58,8 @@ say_what_to_install() {
   echo "  ${as_root}apt-get install -y --no-install-recommends ${missing[*]}"
 }
 
-# ensure_packages LIST...: installs missing packages if this user may; otherwise prints the commands and exits with 2.
+# ensure_packages LIST...: installs missing packages if this user may, and exits with 1 if that fails. Otherwise prints
+# the commands that install them and exits with 2.
 ensure_packages() {
   local missing
   find_missing_packages "$@"

@@ -7,7 +7,7 @@ import pathlib
 
 from harness.programs import run
 
-RESERVED_ROWS = 20  # tasks come from the scenario rows after max(RESERVED_ROWS, number of agents)
+RESERVED_ROWS = 20  # tasks come from the rows after the first max(RESERVED_ROWS, number of agents) rows of a scenario
 
 
 @dataclasses.dataclass(frozen=True)
@@ -117,7 +117,10 @@ class Maps:
         return self.folder / f"{case.map}-random-{number or case.scenario}.scen"
 
     def missing(self, case):
-        """Returns the first missing file of a case. Returns None if no file is missing."""
+        """Returns the map or scenario of a Case if it is missing, the map first.
+
+        Returns None if both exist, and for cases of other types.
+        """
         if not isinstance(case, Case):
             return None
         return next((file for file in (self.map(case), self.scenario(case)) if not file.exists()),
@@ -127,7 +130,8 @@ class Maps:
 def scenario_with_enough_rows(maps, case, folder):
     """Returns the scenario file of a case or, if it has too few rows, a copy with the rows of the next scenario added.
 
-    Dense instances need this. For example, random-32-32-20 has 409 rows, but 250 agents with 250 tasks need 500 rows.
+    Without a next scenario it returns the file itself. Dense instances need more rows: random-32-32-20 has 409, but 250
+    agents with 250 tasks need 500.
     """
     lines = maps.scenario(case).read_text().splitlines()
     if len(lines) - 1 >= max(RESERVED_ROWS, case.agents) + (case.tasks or 0):

@@ -23,7 +23,10 @@ def add_folders(parser):
 
 
 def run(command, timeout=None):
-    """Runs a command and returns its standard output. Raises Failure unless it exits with 0."""
+    """Runs a command and returns its standard output.
+
+    Raises Failure if the exit code is not 0, and subprocess.TimeoutExpired after `timeout` seconds.
+    """
     command = [str(word) for word in command]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=timeout)
     if done.returncode != 0:
@@ -40,7 +43,7 @@ def answer(solve, plan):
 
 
 def optimum(solve, plan):
-    """Runs the command `solve`, which must prove the optimum, and returns the content of its plan file."""
+    """Runs the command `solve` and returns the content of its plan file. Raises SystemExit if no optimum is proven."""
     found = answer(solve, plan)
     if found["status"] != "optimal":
         raise SystemExit(f"{shlex.join(map(str, solve))}: found status {found['status']}; expected optimal")
@@ -48,6 +51,9 @@ def optimum(solve, plan):
 
 
 def median_optimum(solve, plan, repeat):
-    """Runs optimum() `repeat` times and returns the content of the plan file from the run with the median time."""
+    """Runs optimum() `repeat` times and returns the content of the plan file of the run with the median time.
+
+    If `repeat` is even, the slower of the two middle runs counts.
+    """
     runs = [optimum(solve, plan) for _ in range(repeat)]
     return sorted(runs, key=lambda found: found["stats"]["wall_s"])[repeat // 2]

@@ -44,7 +44,7 @@ def first_plan_seconds(log):
 
 @dataclasses.dataclass(frozen=True)
 class Grove:
-    """`grove solve` with `options`, on one thread unless these set --threads. Checks every plan with `grove check`."""
+    """`grove solve` with `options`, on one thread unless they include --threads. Checks plans with `grove check`."""
 
     program: str
     options: tuple = ()
@@ -75,9 +75,9 @@ class Grove:
 class OtherSolver:
     """Any solver for classical MAPF.
 
-    command: can contain {map}, {scen}, {agents}, {time_limit}, and {output} for a file that the solver writes. pattern:
-    regular expression for the solver's output and that file. A match means that the solver claims a plan; group 1 is
-    its cost. Paths in that file are checked with `grove check`.
+    command: may contain {map}, {scen}, {agents}, {time_limit}, and {output}, a file that the solver may write.
+    pattern: regular expression that is searched in the solver's output, followed by the content of {output}. A match
+    means that the solver claims a plan, and group 1 is its cost. Paths in {output} are checked with `grove check`.
     """
 
     grove: str

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs a program in its own namespaces: processes, network, mounts, host name.
+"""Runs a program in its own namespaces: processes, network, mounts, host name, IPC.
 
 Processes in the sandbox do not occupy ports of the machine and cannot be reached from outside. They end with the
 program, even if it is killed: when the first process of a process namespace ends, the kernel kills all other
@@ -19,8 +19,8 @@ HOSTS = Path("/etc/hosts")
 FILES = Path("/run/grove")  # in memory, visible only in the sandbox
 ON_HOST = FILES / "on_host"  # a symbolic link, because mpirun accepts no path with spaces
 
-# Command prefix that starts a process in new namespaces. This process, unshare and the first process of
-# the sandbox form a chain in which each process is killed when its parent ends, even by SIGKILL.
+# Command prefix that starts a process in new namespaces. The calling process, unshare and the first process
+# of the sandbox form a chain in which each process is killed when its parent ends, even by SIGKILL.
 ENTER = ["setpriv", "--pdeathsig", "KILL",
          "unshare", "--pid", "--net", "--mount", "--uts", "--ipc",
          "--mount-proc", "--fork", "--kill-child"]
@@ -39,7 +39,8 @@ class NotHere(Exception):
 def run_in_sandbox(function):
     """Runs function() as root in a sandbox whose host name is HOST, and exits with its return value.
 
-    Starts this program a second time in the sandbox. If that is impossible, prints the reason and exits with SKIPPED.
+    Starts this program a second time in the sandbox. If that is impossible or function() raises NotHere, prints the
+    reason and exits with SKIPPED. After a signal N that ends the sandbox, exits with 128 + N.
     """
     os.environ["PATH"] += ":/usr/sbin:/sbin"
     try:
@@ -57,7 +58,7 @@ def need_program(package, program):
 
 
 def run_command(command, environment):
-    """Runs a command and returns its exit code as a shell would report it."""
+    """Runs a command and returns its exit code as a shell would: 128 + N after signal N, 127 if it cannot be run."""
     try:
         return _exit_code(subprocess.run(command, env=environment).returncode)
     except OSError as error:
@@ -75,7 +76,7 @@ def set_hosts(addresses):
 def connect(address, *on_host):
     """Enables the network interfaces of a host and sets its IP address.
 
-    on_host: command prefix that runs a command on that host; by default this host.
+    on_host: command prefix that runs a command on that host; without it, commands run on this host.
     """
     for command in (["link", "set", "lo", "up"], ["link", "set", INTERFACE, "up"],
                     ["address", "add", f"{address}/24", "dev", INTERFACE]):
@@ -111,7 +112,8 @@ def _outside():
 
 
 def _first_process(function):
-    """Acts as the sandbox's init process: reaps orphaned processes.
+    """Acts as the sandbox's init process: runs function() in a child, reaps orphaned processes, and returns the exit
+    code of the child.
 
     A process that has ended but has not been reaped remains a member of its process group, and Slurm would wait for
     this group.
@@ -128,7 +130,7 @@ def _first_process(function):
 
 
 def _furnish():
-    """Sets the host name and IP address, and mounts a private /run (for sockets of daemons) and /dev/shm."""
+    """Sets host name and IP address. Mounts a private /run (for sockets of daemons), /dev/shm and /etc/hosts."""
     subprocess.run(["hostname", HOST], check=True)
     subprocess.run(["mount", "-t", "tmpfs", "-o", "mode=755", "grove", "/run"], check=True)
     subprocess.run(["mount", "-t", "tmpfs", "shm", "/dev/shm"], check=True)

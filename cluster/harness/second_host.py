@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Starts a second host inside a sandbox, with its own host name, network and /dev/shm.
 
-A virtual cable connects it to the first host. The two hosts share only files, processors and memory.
+A virtual cable connects it to the first host. The two hosts share files, processors, memory and process
+ids.
 """
 import subprocess
 

@@ -61,7 +61,7 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
     file(RENAME ${usr}/share/doc/grove ${usr}/share/doc/${package})
   endif()
   write_documents(${usr}/share/doc/${package})
-  # The copyright file has the text of this licence.
+  # The copyright file contains the text of this licence.
   file(REMOVE ${usr}/libexec/grove/grove_vda5050/schemas/LICENSE.txt
     ${usr}/libexec/grove/grove_vda5050/schemas/README.md)
   file(GLOB pages ${usr}/share/man/man1/*.1)

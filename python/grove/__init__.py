@@ -165,7 +165,7 @@ def solve(instance, *, omega=_grove._omega, time_limit=_grove._time_limit, memor
     seed: seed of all random choices.
     method: "auto", or a published method for comparison (`grove solve --help` lists them).
     start: a valid plan of the instance, from which the search starts.
-    progress: called with a Progress every `progress_interval` seconds.
+    progress: called with a Progress about every `progress_interval` seconds, and at the end.
     incumbent: called with each better Plan and a Progress.
     stop: a threading.Event; setting it ends the search in the same way as a limit.
 
@@ -220,7 +220,7 @@ class Session:
 
         late: robots that are now behind the plan, in steps: {"red": 2}. Robots that must wait for them are also late.
 
-        Raises InvalidArgument without a plan, or if a delay is impossible; the session is then unchanged.
+        Raises InvalidArgument without a plan, if steps < 0, or if a delay is impossible; the session is then unchanged.
         """
         self._session.advance(steps, dict(late or {}))
 
@@ -231,7 +231,8 @@ class Session:
         dropped_tasks: ids of tasks that no robot has to visit any more.
         blocked: cells to block, or vertices to block with all their roads.
 
-        Raises InvalidArgument if the change is impossible; the session is then unchanged.
+        Raises InvalidArgument if the change is impossible, and InputError for malformed tasks; the session is then
+        unchanged.
         """
         self._session.change(list(new_tasks), list(dropped_tasks), list(blocked))
 

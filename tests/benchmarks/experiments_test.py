@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests the experiment scripts on small maps.
+"""Tests experiments.py and its harness on small maps.
 
-    experiments_test.py [GROVE]    GROVE: the program; without it, tests that run it are skipped
+    experiments_test.py [GROVE]    GROVE: the program, build/release/bin/grove by default; tests that run it are skipped
+                                   if it does not exist
 """
 import csv
 import json

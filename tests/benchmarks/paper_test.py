@@ -59,7 +59,7 @@ class Paper(unittest.TestCase):
     def test_missing_program_is_an_error(self):
         with tempfile.TemporaryDirectory() as name:
             self.assertIn("tools/quickstart", self.refused(name, "--grove", "/no/such/grove"))
-            self.assertFalse((Path(name) / "settings.json").exists())  # stored only for settings that have results
+            self.assertFalse((Path(name) / "settings.json").exists())  # written after the instances
 
     def test_signals_reach_the_bench(self):
         with tempfile.TemporaryDirectory() as name:

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests the job scripts with every option of docs/command-line.md and with options that the scripts set themselves.
-Runs without Slurm (its commands are replaced) and on one rank."""
+"""Tests the job scripts with the options of docs/command-line.md (except NOT_OURS), including options that the scripts
+set themselves. Runs without Slurm (its commands are replaced) and on one rank."""
 import json
 import os
 import re

@@ -38,7 +38,7 @@ class PreemptScript:
         return path.read_text(encoding="utf-8") if path.exists() else ""
 
     def rows(self, since=0):
-        """Returns the rows of the log, from position `since`, that have an incumbent."""
+        """Returns one entry for each row with an incumbent in the log from position `since` on."""
         return re.findall(r"^[A-Z* ]( +\d+){5} ", self.log()[since:], re.M)
 
     def job_is(self, **fields):
@@ -57,7 +57,7 @@ class PreemptScript:
         return list((self.folder / "hard.checkpoint").rglob("checkpoint.grove"))
 
     def second_run(self, bound_before):
-        """Asserts that the requeued job resumes the search."""
+        """Asserts that the requeued job resumes the search. Then cancels the job and checks its plan and bound."""
         before = len(self.log())
         wait_until("the second run", lambda: self.starts_again() and self.rows(before))
         self.assertRegex(self.log()[before:], RESUMED)
@@ -68,8 +68,10 @@ class PreemptScript:
         self.assertGreaterEqual(plan["lower_bound"], bound_before)
 
     def starts_again(self):
-        """Releases a requeued job after 2 s instead of Slurm's delay of two minutes. A node can refuse a job in the
-        second in which its previous run ends ("already killed"), after which Slurm holds the job indefinitely."""
+        """Releases a pending job after 2 s instead of Slurm's delay of two minutes, and returns True.
+
+        A node can refuse a job in the second in which its previous run ends ("already killed"), after which Slurm holds
+        the job indefinitely."""
         if self.job_is(JobState="PENDING"):
             time.sleep(2)
             for command in (["release", self.job], ["update", f"JobId={self.job}", "StartTime=now"]):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests an installation of Grove without its source and build folders.
+"""Tests an installation of Grove: its programs, its libraries, and projects that use them.
 
     install_test.py SOURCE BUILD COMPILER CMAKE PYTHON [--long]
 
@@ -84,7 +84,7 @@ MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 # Symbols that the shared library may export: the public API and template instances of the standard library.
 EXPORTED = re.compile(r"^(grove::(?!detail::)|(typeinfo|typeinfo name|vtable|VTT) for grove::(?!detail::)|"
                    r"(\w+ )*std::|.* std::)")
-# Parts of symbols that it must not export, from bundled libraries and from grove::detail.
+# Parts of symbols that the shared library must not export, from bundled libraries and from grove::detail.
 HIDDEN = re.compile(r"nlohmann|CLI::|YAML|pugi|fmt::|cereal|grove::detail")
 
 

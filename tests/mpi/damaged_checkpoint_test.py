@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Checks that the job ends immediately if a checkpoint proves to be damaged when some ranks already search."""
+"""Checks that a job ends with an error that names the file if the last checksum of its checkpoint is wrong."""
 
 import os
 from pathlib import Path

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Kills a distributed solve at random times and resumes it from its checkpoint until it ends, each time with a
-different number of ranks.
+"""Kills a distributed solve at random times and resumes it from its checkpoint until it ends, each time with a random
+number of ranks.
 
-The answer must be the same as in an undisturbed run. With --script, cluster/preempt.sbatch resumes the solve, with
+It must prove the same optimal cost as an undisturbed run. With --script, cluster/preempt.sbatch resumes the solve, with
 three ranks and with mpirun as a replacement for srun.
 
     kill_and_resume.py [--kills N] [--seed S] [--most-seconds T] [--script] INSTANCE
@@ -41,7 +41,7 @@ def undisturbed(instance, folder):
 
 def kill_a_rank(running, dice, checkpoint, most_seconds):
     """Kills a random rank up to `most_seconds` after all ranks search. If `most_seconds` is None, kills it after the
-    next checkpoint instead.
+    next checkpoint instead. Does nothing if the job ends before.
 
     (If a rank is killed while it connects, mpirun of Open MPI 4 can hang.)"""
     before = written_at(checkpoint)

@@ -85,5 +85,5 @@ def small_checker_within(memory, instance, certificate):
 
 
 def following_note(following):
-    """Returns the end of a verdict, which states that following is forbidden if it is."""
+    """Returns the last words of a verdict: a note that following is forbidden, or nothing if it is allowed."""
     return "" if following else ", where following is forbidden"

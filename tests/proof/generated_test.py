@@ -4,7 +4,6 @@
 
     generated_test.py GROVE_VERIFY
     GROVE_FUZZ_FACTOR=20: 20 times as many instances
-
 """
 import os
 import random
@@ -22,7 +21,10 @@ RULES = ("rest", "pass", "stop", "lemma", "later", "joint")
 
 
 def instances(count, kinds=KINDS, first=0):
-    """Yields `count` times FACTOR tuples (rng, kind, instance, following, least cost), cycling through the kinds."""
+    """Yields (rng, kind, instance, following, least cost) for `count` times FACTOR instances of all kinds in turn.
+
+    Skips instances for which optimum() returns None.
+    """
     for seed in range(first, first + int(count * FACTOR)):
         rng = random.Random(seed)
         kind = kinds[seed % len(kinds)]
@@ -37,7 +39,7 @@ def raised(certificate, by=1):
 
 
 def mutants(rng, certificate, count):
-    """Yields certificates with one random change each, whose theorem claims a bound higher by 1."""
+    """Yields `count` copies of a certificate that claim a bound higher by 1 and have at most one random change each."""
     lines = raised(certificate).split("\n")[:-1]
     for _ in range(count):
         mutant = list(lines)
@@ -173,7 +175,7 @@ class Generated(unittest.TestCase):
 
     @staticmethod
     def simple(certificate):
-        """Returns whether each split of the certificate is also valid without `following no`."""
+        """Returns whether each split of a certificate with `following no` is also valid with `following yes`."""
         return all(len(set(re.findall(r"bar \d+ (\d+)", line))) == 1
                    for line in certificate.split("\n") if " bar " in line)
 

@@ -75,8 +75,8 @@ class Prover:
                 return bound
 
     def proof(self, agents, bound, constraints):
-        """Returns the lines of a proof. Raises TooLong after `most` splits, because the proof of a false claim would
-        not end."""
+        """Returns the lines of a proof. Raises TooLong after `most` steps other than leaves, because the proof of a
+        false claim would not end."""
         self.left = self.most
         found, todo = [], [constraints]
         while todo:
@@ -117,8 +117,8 @@ class Prover:
         return [f"split {text(one)} | {text(two)}"], sides
 
     def cover(self, costs, names):
-        """Returns the least sum of agent costs that satisfies the lemmas, or the sum of `costs` plus 8 if that is
-        less."""
+        """Returns the least sum of agent costs that satisfies the lemmas, or the sum of `costs` plus 8 if that is less.
+        INF if the bound of a lemma is INF."""
         if any(self.lemmas[n][1] == INF for n in names):
             return INF
         total, spare = sum(costs.values()), list(costs)
@@ -158,7 +158,8 @@ class Prover:
         return (agent, "stop", k, j), (agent, "nostop", k, j)
 
     def conflict(self, agents, constraints):
-        """Returns a split on a random conflict of the least-cost paths. Each side excludes one of the two paths."""
+        """Returns a split on a random conflict of the least-cost paths. Each side excludes one of the two paths.
+        Raises TooLong if there is no conflict."""
         paths = {agent: self.least(agent, constraints)[1] for agent in agents}
         latest = max(map(len, paths.values())) + 1
         at = {agent: path + [path[-1]] * (latest - len(path)) for agent, path in paths.items()}

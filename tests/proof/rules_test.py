@@ -22,7 +22,7 @@ CROSSED = ["split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf", "leaf"]
 STAR = Instance(grid(*["....."] * 5), [Agent((10,), 14), Agent((2,), 22), Agent((14,), 10)])
 # One agent follows the other.
 ROW = Instance(grid("...."), [Agent((1,), 3), Agent((0,), 2)])
-# Two agents exchange places; a detour costs three steps.
+# Two agents exchange places; a detour takes three steps.
 SWAP = Instance(grid("..", ".."), [Agent((0,), 1), Agent((1,), 0)])
 STUCK = Instance(grid(".."), [Agent((0,), 1), Agent((1,), 0)])
 # Agent 1 must pass the goal of agent 0.

@@ -26,8 +26,8 @@ OLD = Path(__file__).resolve().parent / "old"
 
 
 def trim(certificate, *options):
-    """Trims a certificate. Returns the exit code, the output, the resulting file and the names in its folder.
-    certificate: text or bytes."""
+    """Trims a certificate. Returns the exit code, the output, the content of the file afterwards, and the names of the
+    files in its folder. certificate: text or bytes."""
     with tempfile.TemporaryDirectory() as name:
         file = Path(name) / "c.proof"
         file.write_bytes(certificate if isinstance(certificate, bytes) else certificate.encode())

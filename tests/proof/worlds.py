@@ -49,7 +49,7 @@ class World:
         return y * self.width + x if inside and self.passable(y * self.width + x) else None
 
     def chain(self, place):
-        """Returns the chain of interior places that contains `place`, including both ends, or None if there is none."""
+        """Returns the chain with `place` in its interior, from end to end, or None if there is none."""
         if len(self.near[place]) != 2:
             return None
         row = [place]
@@ -189,8 +189,8 @@ def initial(instance, agent, ordered):
 
 
 def arrivals(instance, agent, state, ordered):
-    """Yields the states that the agent can choose when it reaches `state`: stops without duration count as visited,
-    and the execution of a task can start."""
+    """Yields the states that the agent can choose when it reaches `state`: the execution of a task can start, and stops
+    without duration count as visited. If `ordered`, each state visits at most one of them."""
     pose, done, _ = state
     here = [j for j in instance.stops(agent) if instance.tasks[j][0] == pose[0] and j not in done]
     quick = [j for j in here if instance.tasks[j][1] == 0]
@@ -226,7 +226,7 @@ def finished(instance, agent, state, ordered):
 
 def least_cost(instance, agent, constraints, latest=400):
     """Returns (c(A, D), a path as one place per time), or (inf, None) if there is no path. A constraint is a tuple
-    as in a certificate, but without the agent."""
+    as in a certificate, but without the agent. Raises AssertionError after `latest` steps."""
     ordered = any(d[0] in ("stop", "nostop") for d in constraints)
     world = instance.world
     constant_from = 1 + max([t for d in constraints for t in d[1:] if d[0] not in ("stop", "nostop") and t != INF],

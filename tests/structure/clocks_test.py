@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks that only the tests and sources listed here read a clock or sleep.
+"""Checks that only the tests listed here read a clock or sleep, and that only the sources listed here read a clock.
 
     clocks_test.py [ROOT]   checks the tree at ROOT, by default this one
-
 """
 import re
 import sys

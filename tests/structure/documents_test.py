@@ -21,8 +21,7 @@ A comment on a line of its own before a block leaves the block out and gives the
 A block without such a comment may only call harmless programs (HARMLESS). Commands of Grove may not be in other
 places: no indented line, and no block without a language, may begin with one.
 
-Exit codes: 0 all blocks ran, 1 a block failed, 77 the programs are not built.
-
+Exit codes: 0 all chosen blocks ran, 1 a block failed or a command is in another place, 77 the programs are not built.
 """
 import argparse
 import os
@@ -89,7 +88,7 @@ def commands(script):
 
 
 def harmful(block):
-    """Returns a program of the block that is not in HARMLESS, or None."""
+    """Returns the first command of the block whose program is not in HARMLESS, or None."""
     parts = [part for command in commands(block.script) for part in re.split(r" (?:&&|\|\|?|;) ", command)]
     return next((part for part in parts if not HARMLESS.match(part)), None)
 
@@ -116,8 +115,8 @@ def missing_line(shown, output):
 
 
 def start_shell(folder):
-    """Writes the initial state of a document's shell (its folder; each block adds its variables) and returns the
-    path of the file."""
+    """Writes the initial state of a document's shell (PATH and folder) and returns the path of the file. Each block
+    replaces it by the state at its end."""
     state = folder / ".shell"
     state.write_text(f'export PATH="{folder}/build/release/bin:$PATH"\ncd "{folder}"\n', encoding="utf-8")
     return state

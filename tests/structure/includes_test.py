@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks that every file includes what it uses, directly or through headers of Grove, so that it compiles alone and
-after any other file.
+"""Checks that every C++ file includes, directly or through headers of Grove, the headers of the Grove types and of the
+standard names (STANDARD) that it uses.
 
 The compiler does not detect a missing include, because it compiles several sources as one and uses precompiled
 headers.

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks that links between documents have existing targets, and that the README is short.
+"""Checks that links between documents have existing targets, that docs/README.md lists all pages, and that the README
+is short.
 
     links_test.py [ROOT]   checks the documents of the tree at ROOT, by default this one
 """
@@ -42,7 +43,7 @@ def anchors(document):
 
 
 def dead(link, page, root):
-    """Explains why a link in `page` has no target, or None. Links to other hosts are not checked."""
+    """Returns the reason if a link in `page` has no target, otherwise None. Does not check links to other hosts."""
     if re.match(r"[a-z][a-z0-9+.-]*:", link):
         return None
     target, _, name = link.partition("#")

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks that the C++ code in a document compiles and, unless it is a complete program, runs.
+"""Checks that the C++ code in a document compiles and, except for complete programs, runs.
 
     snippets_test.py DOCUMENT COMPILER LIBRARY INSTANCE INCLUDE_DIR...
 
-A ```cpp block with a main() is a program. All other blocks form, in order, the body of one function. It is linked
-with LIBRARY, if that exists, and runs in a folder where INSTANCE is depot.cts.json. Programs that include mpi.hpp
-are skipped if no INCLUDE_DIR has mpi.h.
+A ```cpp block with a main() is a program. All other blocks form, in order, the main() of one more program, which is
+linked with LIBRARY and runs in a folder where INSTANCE is depot.cts.json. If LIBRARY does not exist, this program is
+only compiled. Programs that include mpi.hpp are skipped if no INCLUDE_DIR contains mpi.h.
 """
 import re
 import shutil

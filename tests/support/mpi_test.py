@@ -9,7 +9,7 @@ LOST_BY_MPIRUN = "mpirun has exited due to process rank"
 
 
 class MpiTest(unittest.TestCase):
-    """Reruns a test once if it failed because mpirun reported a lost rank."""
+    """Reruns a test once if the message of its failure contains LOST_BY_MPIRUN."""
 
     def __init_subclass__(cls, **more):
         super().__init_subclass__(**more)

@@ -26,7 +26,7 @@ CHROMIUM = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chro
 
 class Visit(NamedTuple):
     console: list     # console messages, exceptions and log entries
-    requests: list    # URLs of network requests, including blocked ones
+    requests: list    # URLs of network requests, including blocked ones; not file:, data: and blob:
     picture: object   # screenshot as an RGB image
 
 
@@ -90,7 +90,10 @@ class Chromium:
         self.folder.cleanup()
 
     def message(self, seconds=HANG_S):
-        """Returns the next message from the browser, or None if none arrives within `seconds` seconds."""
+        """Returns the next message from the browser, or None if none arrives within `seconds` seconds.
+
+        Raises AssertionError if the browser has ended.
+        """
         end = time.monotonic() + seconds
         while b"\0" not in self.buffer:
             if not select.select([self.read], [], [], max(0, end - time.monotonic()))[0]:

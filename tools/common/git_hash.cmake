@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # cmake -DSOURCE_DIR=... -DOUTPUT=... -P git_hash.cmake
-# Writes a header that defines GROVE_GIT_HASH as the abbreviated commit hash; "unknown" outside a git clone.
+# Writes a header that defines GROVE_GIT_HASH as the abbreviated commit hash, with "-dirty" appended if tracked files
+# have changed; "unknown" outside a git clone.
 cmake_minimum_required(VERSION 3.22)
 execute_process(
   COMMAND git -c safe.directory=* describe --always --dirty --abbrev=12 --exclude=*

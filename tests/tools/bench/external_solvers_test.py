@@ -36,7 +36,7 @@ class ExternalSolverTests(Program):
         path.write_text(f"type octile\nheight {WIDTH}\nwidth {WIDTH}\nmap\n" + f"{letter * WIDTH}\n" * WIDTH)
 
     def add_scenario(self, name, agents, map_name="open.map"):
-        """Writes a scenario with one agent in each row, which moves from the left to the right."""
+        """Writes a scenario with one agent in each of the first `agents` rows, which moves from left to right."""
         path = self.folder / "maps" / f"{name}.scen"
         path.write_text("version 1\n" + "".join(
             f"0\t{map_name}\t{WIDTH}\t{WIDTH}\t0\t{y}\t{WIDTH - 1}\t{y}\t7\n" for y in range(agents)))

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Imitates external solvers, both correct and faulty ones, for tests of grove bench.
 
-    fake_solver.py MAP SCENARIO AGENTS OUTPUT KIND
+    fake_solver.py MAP SCENARIO AGENTS OUTPUT [IGNORED...] KIND
 
 Every agent of the scenario starts in the first column and goes to the last column of the same row, so that the
 straight paths are optimal."""
@@ -77,7 +77,7 @@ def main():
     elif kind == "allocates":
         bytearray(3_000_000_000)
     elif kind == "anytime":
-        # The first claimed cost is 1 too low, and the last plan is reported 3 times.
+        # The first claimed cost is 1 too low. The last plan is reported 3 times, the third time with a cost 1 too low.
         for waits, offset in ((3, 3 * len(rows) - 1), (1, len(rows)), (0, 0), (0, 0), (0, -1)):
             write(output, [straight(*row, waits=waits) for row in rows])
             print(f"at {time.process_time():.3f} cost {cost + offset}", flush=True)

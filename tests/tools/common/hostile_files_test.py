@@ -96,7 +96,7 @@ class Messages(Hostile):
 
 
 def commands(instance, plan):
-    """Yields the arguments of every command that reads an instance."""
+    """Yields the arguments of each command that reads an instance, except bench."""
     yield "solve", instance, "-o", "out.plan.json", "--quiet"
     yield "check", instance, plan
     yield "view", instance, plan, "-o", "out.html"
@@ -177,7 +177,7 @@ class Confined(Hostile):
 
 
 class Memory(Hostile):
-    """Tests files of some hundred bytes that would require gigabytes of memory."""
+    """Tests files of at most a few kilobytes that would require gigabytes of memory."""
 
     def refused_for_memory(self, *words, limit=True):
         message = self.refused(*words, *(["--memory-limit", MEMORY_GB] if limit else []))

@@ -17,7 +17,8 @@ ROUND = {"map": "open.map", "tasks": [],
 # Two robots that must pass each other in a corridor with a single niche.
 NARROW = {"map": "narrow.map", "tasks": [{"id": "t", "cell": [3, 0], "agents": ["up"]}],
           "agents": [{"id": "up", "start": [0, 1], "goal": [6, 1]}, {"id": "down", "start": [6, 1], "goal": [0, 1]}]}
-# Two robots on roads of two and three steps that pass each other at a crossing. Both have tasks on their way.
+# Two robots on roads of two and three steps that pass each other at a crossing, where both have a task. One of them has
+# another task on a side road.
 ROADS = {"roadmap": "hall.roadmap.json",
          "tasks": [{"id": "press", "cell": "C", "agents": ["r1", "r2"], "duration": 2},
                    {"id": "look", "cell": "N", "agents": ["r2"]}],

@@ -99,7 +99,7 @@ class Folder(unittest.TestCase):
         return page, done.stderr
 
     def assert_files_are_there(self, page):
-        """Checks that every file named in the page exists and can be downloaded from the page."""
+        """Checks that each download of the page equals its file, and that the page names no other file."""
         for name, content in Elements(page).downloads.items():
             kind, data = content.split(",")
             self.assertEqual(kind, "data:text/csv;base64")

@@ -20,7 +20,7 @@ COLUMNS = ["instance", "method", "options", "map", "scenario", "agents", "tasks"
 MAPS = {"empty-32-32": 0.5, "random-32-32-20": 1.5, "room-32-32-4": 2.6}  # difficulty of each map
 AGENTS = (5, 10, 20)
 TASKS = (10, 20, 30, 40, 50)
-# Method: (ln of seconds on the easiest instance, growth with difficulty, relative excess over the optimum)
+# Method: (ln of the seconds at difficulty 0, growth with difficulty, mean relative excess over the optimum)
 MG_METHODS = {"auto": (-6.5, 0.85, 0.002), "cts-cbs-a": (-4.5, 1.25, 0.004),
               "cts-cbs-b": (-5.0, 0.95, 0.10), "cts-cbs-c": (-4.3, 1.05, 0.04),
               "optimal-cbs": (-3.0, 1.45, 0.0), "hcbs": (-2.5, 1.45, 0.0),
@@ -40,7 +40,7 @@ def _optimum(hardness, agents, tasks, scenario):
 
 
 def _counts(method, nodes):
-    """Returns the search counters as text, or None for baselines, which have no counters."""
+    """Returns the search counters as text, or None if all are 0 and for baselines, which have no counters."""
     if not method.startswith(("auto", "cts")):
         return None
     found = {"bypasses": nodes // 9, "joint_mdd_nodes": 30 * nodes, "branching_cost_queries": 8 * nodes,
@@ -82,7 +82,10 @@ def _row(dice, instance, method, options, omega, shape):
 
 
 def rows(scenarios=15, maps=tuple(MAPS), agents=AGENTS, tasks=TASKS, seed=1, study=True):
-    """Yields MG-MAPF rows of eight methods and, with `study`, CTS-MAPF rows of one method with four values of omega."""
+    """Yields MG-MAPF rows of eight methods and, with `study`, CTS-MAPF rows for four values of omega.
+
+    The study uses the last map and the first number of agents.
+    """
     dice = random.Random(seed)
     for name in maps:
         for number in agents:

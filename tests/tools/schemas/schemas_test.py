@@ -288,7 +288,7 @@ class RefusedFiles(Case):
         done = subprocess.run([VERIFY, instance, "/dev/null"], capture_output=True, text=True, timeout=60,
                               cwd=self.folder)
         self.assertEqual(done.returncode, 2, done.stdout)
-        return not done.stdout.startswith("unreadable: line ")  # refused because of the certificate
+        return not done.stdout.startswith("unreadable: line ")  # a line of the certificate
 
     def assert_refused(self, kind, value):
         self.assertTrue(self.schema_errors(kind, value), "the schema accepts it")
@@ -330,7 +330,7 @@ class RefusedFiles(Case):
         return path
 
     def valid(self, kind):
-        """Returns a valid file of this kind that has all keys."""
+        """Returns a valid file of this kind with all keys."""
         if kind == "instance":
             shop = load(DATA / "shop.cts.json")
             shop["tasks"].append({"id": "begun", "cell": [4, 2], "agents": ["spare"], "duration": 9})
@@ -348,7 +348,7 @@ class RefusedFiles(Case):
                 "trace": [{"file": "{output}", "regex": "(.) (.)", "groups": ["cost", "seconds"]}]}
 
     def each_place(self, value, path=()):
-        """Yields (path, value) of each nested value, but only of the first entry of each list."""
+        """Yields (path, value) of each nested value. Skips stats, about, and all but the first entry of each list."""
         yield path, value
         if isinstance(value, dict):
             for key, inner in value.items():

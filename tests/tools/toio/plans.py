@@ -13,7 +13,7 @@ from orders import order_file
 
 PATIENCE = 240                  # time limit in virtual seconds
 
-# The simple mat has room for 7 x 5 cells, which is too small for robots in a ring.
+# The simple mat has room for 7 x 5 cells. The map of "many" is larger, and robots in a ring need larger cells.
 MAT = {"round": "collection", "many": "collection"}
 
 
@@ -40,5 +40,5 @@ def drive(name, loss=0.0, seed=0, lifts=(), seconds=PATIENCE, kind=Driver, slip=
 
 @functools.cache
 def calm_drive(name, loss, seed):
-    """Returns drive(name, loss, seed), cached for tests that only read the outcome."""
+    """Returns drive(name, loss, seed), cached for tests that only read the result."""
     return drive(name, loss, seed)

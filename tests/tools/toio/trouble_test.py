@@ -201,7 +201,7 @@ class WithoutOrder(WithoutGuard):
 
 
 class EarlyArrival(WithoutGuard):
-    """Accepts a cube within 15 units of its goal as arrived, as the cubes themselves do."""
+    """Accepts a cube within REACHED_BOX of its goal as arrived, as the cubes themselves do."""
 
     async def reach(self, handle, goal, tolerance, onward=lambda: None):
         await super().reach(handle, goal, protocol.REACHED_BOX, onward)

@@ -34,7 +34,8 @@ class Connection:
     failure = None
 
     def __init__(self, broker, topics, will=None, hello=None, pause=None):
-        """Connects to the broker. `pause()` advances the time while the inbox is empty. None: get() never waits."""
+        """Connects to the broker. While get() waits, it calls `pause()`, which advances the time. None: get() must not
+        wait."""
         self.broker, self.topics, self.inbox, self.pause = broker, [t.split("/") for t, _ in topics], self, pause
         self.messages = queue.SimpleQueue()
         broker.connections.append(self)
@@ -64,7 +65,7 @@ class Connection:
 
 
 class Drive:
-    """Runs `trial ORDER --pace ...` in this process, without a broker."""
+    """Runs `grove vda5050 trial` with options in this process, with Broker instead of mosquitto."""
 
     def __init__(self, name, *options):
         self.seconds = 0.0
@@ -101,7 +102,7 @@ def drive(*arguments):
 
 
 def planned_ends(name):
-    """Returns {robot: (number of actions, planned end of the last action in steps)}."""
+    """Returns {robot: (number of actions, planned end of the last action in steps)} of the robots with actions."""
     robots = json.loads(orders.order_file(name, False).read_text())["robots"]
     return {r["id"]: (len(r["actions"]), r["actions"][-1]["planned"] + r["actions"][-1]["steps"])
             for r in robots if r["actions"]}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests the program grove-vda5050 with a broker: commands, messages and exit codes."""
+"""Tests the program grove-vda5050, also with a broker: commands, messages and exit codes."""
 import contextlib
 import functools
 import json

@@ -18,8 +18,8 @@ class _Eager(Releases):
 
 
 def walk(name, seed, kind=Releases):
-    """Lets vehicles complete released nodes in random order. Returns (whether all are done, number of places held
-    twice)."""
+    """Lets vehicles complete released nodes in random order. Returns (whether all are done, number of places released
+    to a second vehicle, summed over all steps)."""
     order, routes = air.order(name, False), air.routes(name, False)
     releases, draw = kind(order, routes), random.Random(seed)
     reached = dict.fromkeys(routes, 0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests the simulated vehicle: which orders it accepts and refuses, and that it never leaves its base."""
+"""Tests the simulated vehicle: which orders it accepts and refuses, and that it stops at the end of its base."""
 import copy
 import math
 import unittest

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Checks that the page and `grove check` agree on the validity of plans.
 
-The instances are random and of all kinds; half of the plans are broken.
+The instances are those in benchmarks/data and random ones of all kinds. Each plan is compared as solved and after
+random changes.
 
 agreement_test.py GROVE NODE VERDICTS [--plans N] [--seed S]   VERDICTS: verdicts.ts, bundled for node
 """
@@ -223,7 +224,7 @@ def rest_longer(rng, plan):
 
 
 def no_way(rng, plan):
-    """Changes a number in a path entry, so that a step leads onto a blocked cell, along a different road or off the
+    """Changes a number in a path entry, so that a step may lead onto a blocked cell, along a different road or off the
     map."""
     agent = rng.choice(plan["agents"])
     entry = agent["path"][rng.randrange(len(agent["path"]))]
@@ -303,8 +304,8 @@ def visualizer_text(rng, plan):
 
 
 def is_for_others(plan):
-    """Returns whether other tools can represent the plan: no roads, turns or task executions, and a path for every
-    agent."""
+    """Returns whether other tools can represent the plan: no roads, turns, task executions or negative numbers, and a
+    path for every agent."""
     agents = plan["agents"]
     return len(agents) > 0 and plan["lower_bound"] >= 0 and all(
         a["path"] and not a.get("work") and all(len(e) == 2 and min(e) >= 0 for e in a["path"]) for a in agents
@@ -350,7 +351,7 @@ class Cases:
         self.seen.update(features(instance) + sorted({found["kind"] for found in verdict.get("violations", [])}))
 
     def compare_both(self, instance, plan):
-        """Compares the verdicts on a plan and on a broken version of it, in the format of Grove or of a different
+        """Compares the verdicts on a plan and on a changed version of it, each in the format of Grove or of a different
         tool."""
         data = self.solved(instance, plan)
         if data is None:

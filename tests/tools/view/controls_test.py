@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests every control of a page with keyboard, mouse and touch.
+"""Tests the controls of a page with keyboard, mouse and touch.
 
     controls_test.py GROVE
 

@@ -125,7 +125,7 @@ class PageTest(unittest.TestCase):
         return self.evaluate(f"[...document.querySelectorAll({json.dumps(selector)})].map((e) => e.textContent)")
 
     def press(self, text, selector="button"):
-        """Clicks the first button whose label contains the text."""
+        """Clicks the first element of the selector whose text contains `text`, if there is one."""
         found = self.evaluate(f"[...document.querySelectorAll({json.dumps(selector)})]"
                               f".find((e) => e.textContent.includes({json.dumps(text)}))?.click() ?? 'none'")
         self.browser.settle()
