@@ -98,7 +98,10 @@ def speed_up(configurations):
 
 
 def losses(configurations, methods, baselines):
-    """Returns [(relative loss of mean SQR against a baseline, configuration, method)] for configurations where both solve instances."""
+    """Returns [(relative loss of mean SQR against a baseline, configuration, method)].
+
+    Only configurations count in which both methods solve an instance.
+    """
     return [(1 - one.mean_sqr / other.mean_sqr, configuration, method)
             for configuration, method, one, _, other in pairs(configurations, methods, baselines)
             if one.solved and other.solved]
@@ -176,7 +179,9 @@ def runtime_c(configurations):
 
 
 def quality_c(configurations):
-    """Returns the mean SQRs of A, C and B in the easiest and the hardest third of the configurations by A's success rate.
+    """Returns the mean SQRs of A, C and B in the easiest and the hardest third of the configurations.
+
+    The configurations are ordered by A's success rate.
 
     Only configurations count in which each of the three solves an instance.
     """

@@ -294,7 +294,10 @@ class Driver:
             self.say(f"{self.now():7.1f} s  {handle.name} {text}")
 
     def waits_of(self, handle):
-        """Describes what the robot waits for or does. Returns None if it has completed all its actions and has no fault."""
+        """Describes what the robot waits for or does.
+
+        Returns None if it has completed all its actions and has no fault.
+        """
         k = handle.done
         if (handle.name, "undrivable") in self.reported:
             return f"{handle.name} {self.reported[handle.name, 'undrivable'][1]}"
