@@ -6,7 +6,7 @@ number of ranks.
 It must prove the same optimal cost as an undisturbed run. With --script, cluster/preempt.sbatch resumes the solve, with
 three ranks and with mpirun as a replacement for srun.
 
-    kill_and_resume.py [--kills N] [--seed S] [--most-seconds T] [--script] INSTANCE
+    kill_and_resume.py [--kills N] [--seed S] [--max-seconds T] [--script] INSTANCE
 
 The environment variables GROVE and GROVE_MPI name the programs.
 """
@@ -39,8 +39,8 @@ def undisturbed(instance, folder):
     return plan["cost"]
 
 
-def kill_a_rank(running, dice, checkpoint, most_seconds):
-    """Kills a random rank up to `most_seconds` after all ranks search. If `most_seconds` is None, kills it after the
+def kill_a_rank(running, dice, checkpoint, max_seconds):
+    """Kills a random rank up to `max_seconds` after all ranks search. If `max_seconds` is None, kills it after the
     next checkpoint instead. Does nothing if the job ends before.
 
     (If a rank is killed while it connects, mpirun of Open MPI 4 can hang.)"""
@@ -50,11 +50,11 @@ def kill_a_rank(running, dice, checkpoint, most_seconds):
     def is_moment():
         ranks.update(processes_of(running))
         return running.poll() is not None or ranks and all(map(searches, ranks.values())) and (
-            most_seconds is not None or written_at(checkpoint) != before)
+            max_seconds is not None or written_at(checkpoint) != before)
 
     wait_until("all ranks search", is_moment)
-    if most_seconds is not None:
-        time.sleep(dice.uniform(0, most_seconds))
+    if max_seconds is not None:
+        time.sleep(dice.uniform(0, max_seconds))
     if running.poll() is None:
         try:
             os.kill(dice.choice(sorted(ranks.values())), signal.SIGKILL)
@@ -71,7 +71,7 @@ def lost(log):
     return text_of(log).count("A rank was lost")
 
 
-def disturbed_script(instance, folder, kills, dice, most_seconds):
+def disturbed_script(instance, folder, kills, dice, max_seconds):
     """Kills ranks during one run of the job script, which restarts the solve by itself. Returns the final plan and
     the number of killed ranks."""
     (folder / "bin").mkdir()
@@ -84,7 +84,7 @@ def disturbed_script(instance, folder, kills, dice, most_seconds):
     killed = 0
     while killed < kills and running.poll() is None:
         checkpoint = folder / f"{instance.name.removesuffix('.cts.json')}.checkpoint/checkpoint.grove"
-        kill_a_rank(running, dice, checkpoint, most_seconds)
+        kill_a_rank(running, dice, checkpoint, max_seconds)
         wait_until("the script has reported the lost rank",
                    lambda: running.poll() is not None or lost(log) > killed)
         killed = lost(log)
@@ -95,7 +95,7 @@ def disturbed_script(instance, folder, kills, dice, most_seconds):
     return plan_of(folder / "plan.json"), killed
 
 
-def disturbed(instance, folder, kills, dice, most_seconds):
+def disturbed(instance, folder, kills, dice, max_seconds):
     """Returns the final plan and the number of runs that were killed before it was found."""
     killed = 0
     while True:
@@ -104,7 +104,7 @@ def disturbed(instance, folder, kills, dice, most_seconds):
                                "--checkpoint", "kept", "--checkpoint-interval", 0.2,
                                "--resume", "auto", "--output", "plan.json"), folder)
         if killed < kills:
-            kill_a_rank(running, dice, Path(folder) / "kept/checkpoint.grove", most_seconds)
+            kill_a_rank(running, dice, Path(folder) / "kept/checkpoint.grove", max_seconds)
         output, _ = running.communicate()
         if running.returncode == 0:
             return plan_of(Path(folder) / "plan.json"), killed
@@ -113,11 +113,11 @@ def disturbed(instance, folder, kills, dice, most_seconds):
         print(f"killed one of {ranks} ranks: mpirun exited with code {running.returncode}")
 
 
-def check(instance, kills, seed, most_seconds=None, way=disturbed):
+def check(instance, kills, seed, max_seconds=None, way=disturbed):
     dice = random.Random(seed)
     with tempfile.TemporaryDirectory() as folder:
         truth = undisturbed(instance, folder)
-        plan, killed = way(instance, Path(folder), kills, dice, most_seconds)
+        plan, killed = way(instance, Path(folder), kills, dice, max_seconds)
         assert (plan["status"], plan["cost"]) == ("optimal", truth), (plan["status"], plan["cost"])
         code, output = run([GROVE, "check", instance, "plan.json"], folder)
         assert code == 0, output
@@ -132,13 +132,13 @@ def main():
     parser.add_argument("instance", type=Path)
     parser.add_argument("--kills", type=int, default=10)
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--most-seconds", type=float, default=2.0)
+    parser.add_argument("--max-seconds", type=float, default=2.0)
     parser.add_argument("--script", action="store_true", help="ten kills in a run of the job script")
     a = parser.parse_args()
     way, in_a_run = (disturbed_script, 10) if a.script else (disturbed, a.kills)
     kills = 0
     while kills < a.kills:
-        kills += check(a.instance.resolve(), min(a.kills - kills, in_a_run), a.seed + kills, a.most_seconds, way)
+        kills += check(a.instance.resolve(), min(a.kills - kills, in_a_run), a.seed + kills, a.max_seconds, way)
     print(f"{kills} kills in all")
     return 0
 
