@@ -73,8 +73,8 @@ void LoadBalancer::take(int child, std::int64_t nodes) {
   offer(child, std::move(left));
 }
 
-// The requests are sorted by urgency, so if no transfer is worthwhile for a request, none is for
-// the requests after it.
+// The requests are sorted by urgency. If no transfer is worthwhile for a request, hardly any is for
+// the requests after it (only one from the child of the former), so the loop ends there.
 std::optional<LoadBalancer::Transfer> LoadBalancer::next() {
   for (const auto& [request, child] : requests_) {
     const auto& [busy, minus_best, to] = request;

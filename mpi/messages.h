@@ -94,7 +94,8 @@ struct NewPlan {
   PlanSource source{};
 };
 
-// To the parent, periodically: the current statistics, for observers.
+// To the parent, periodically: the current statistics, for observers and as a sign of life. They
+// also replace the final statistics of a rank that does not finish.
 struct ProcessStatistics {
   RunStatistics statistics;
 };

@@ -34,8 +34,8 @@ class RemoteBounds : public SharedBounds {
   // The minimum of the bound of the whole search (infinite while unknown) and the bound of the
   // local nodes. The latter alone suffices to choose among the local nodes.
   Cost lower_bound() const override { return std::min(known_.load(), frontier_.bound()); }
-  // Stores the plan, to be sent, if it is better than the incumbent and than the plan stored so
-  // far. No worker prunes by it before rank 0 has checked it.
+  // Stores the plan, to be sent, if it is better than the plan stored so far or, if none is stored,
+  // than the incumbent. No worker prunes by it before rank 0 has checked it.
   void post(Plan plan, PlanSource source) override;
   void prove(Cost bound, BoundSource by) override;
   void nodes_changed() override {}

@@ -21,8 +21,9 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kAccountInterval_s = 2;      // between two statistics, which only observers need
-constexpr double kHeartbeatInterval_s = 0.3;  // between statistics while ranks wait for a worker
+constexpr double kAccountInterval_s = 2;  // between two statistics messages, mainly for observers
+constexpr double kHeartbeatInterval_s =
+    0.3;  // between statistics messages of a rank that waits for its workers to end
 
 constexpr double kMinNap_s = 1e-5;  // minimum sleep; a shorter one can hit the same poll time
 

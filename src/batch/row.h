@@ -90,7 +90,8 @@ struct Row {
   std::string plan_file = {};
   std::string solver = {};  // empty: Grove
 
-  // The column runtime_s. As in the paper, an unsolved run counts with its time limit.
+  // The column runtime_s. As in the paper, the runtime of an unsolved run is its time
+  // limit.
   double runtime_s() const {
     const double limit = run.settings.time_limit_s;
     if (!outcome.solved) return limit;

@@ -29,12 +29,13 @@ class TreeSource {
   TreeSource& operator=(const TreeSource&) = delete;
   virtual ~TreeSource() = default;
 
-  // Instantiates the next tree if Algorithm 4 requires it. Must be called before a node is taken.
+  // Instantiates the next tree if Algorithm 4 of the paper requires it. Must be called before a
+  // node is taken.
   virtual void instantiate_due_tree() {}
   // Supplies nodes, or ends the run if there are none. Must be called only if no node is live here.
   virtual void refill_nodes() {}
-  // Returns true if the caller may prepare the next tree before Algorithm 4 requires it; the caller
-  // must then call prepare_tree(). Only one caller at a time gets true.
+  // Returns true if the caller may prepare the next tree before Algorithm 4 of the paper requires
+  // it; the caller must then call prepare_tree(). Only one caller at a time gets true.
   virtual bool claim_preparation() { return false; }
   virtual void prepare_tree() {}
 };

@@ -25,7 +25,8 @@ class EpeaStar {
   // Returns nullptr if there are more than kMaxAgents agents, if there are more than 2^`max_bits`
   // joint states (blocked cells included), if the product of the sizes of the agents' graphs
   // exceeds that number, if one graph exceeds AgentGraph::kMaxNodes, or if there is not enough
-  // memory to start. `instance` must outlive the result. `max_bytes`: its memory limit.
+  // memory to start. `instance` must outlive the result. `max_bytes`: limit on the memory of
+  // the search.
   static std::unique_ptr<EpeaStar> make(const Instance& instance, double max_bits,
                                         std::size_t max_bytes);
   // Searches the agents of these graphs (1 to kMaxAgents), without pattern databases. `known_bound`

@@ -95,11 +95,11 @@ double RelaxedRows::update_direction(std::span<const Path> paths, const Occupanc
   count_uses(paths, occupancy);
   double squares = 0;
   for (RowState& row : row_states_) {
-    const bool is_at_rest = row.exact_multiplier <= 0;  // the multiplier cannot decrease
+    const bool is_zero = row.exact_multiplier <= 0;  // the multiplier cannot decrease
     double direction = row.used - 1;
-    if (is_at_rest) direction = std::max(direction, 0.0);
+    if (is_zero) direction = std::max(direction, 0.0);
     direction += memory * row.direction;
-    row.direction = is_at_rest ? std::max(direction, 0.0) : direction;
+    row.direction = is_zero ? std::max(direction, 0.0) : direction;
     squares += row.direction * row.direction;
   }
   return squares;

@@ -17,7 +17,7 @@ RemotePricing::RemotePricing(const Instance& instance)
 void RemotePricing::accept(PricingRequest request) {
   const std::lock_guard lock(mutex_);
   const auto agents = static_cast<std::int64_t>(request.known.size());
-  if (share_ || agents == 0 || request.first < 0 ||
+  if (request_ || agents == 0 || request.first < 0 ||
       request.first + agents > instance_.agent_count())
     throw std::invalid_argument("pricing request: invalid agents");
   multipliers_.apply(request.update);
@@ -28,22 +28,22 @@ void RemotePricing::accept(PricingRequest request) {
   answer_.paths.assign(request.known.size(), {});
   answer_.work = 0;
   next_ = done_ = 0;
-  share_ = std::move(request);
+  request_ = std::move(request);
 }
 
 std::optional<PricingJob> RemotePricing::next() {
   const std::lock_guard lock(mutex_);
-  if (!share_ || next_ == share_->known.size()) return std::nullopt;
+  if (!request_ || next_ == request_->known.size()) return std::nullopt;
   PricingJob job;
-  job.first = share_->first + static_cast<AgentIndex>(next_);
+  job.first = request_->first + static_cast<AgentIndex>(next_);
   job.end = job.first + 1;
-  job.known = {share_->known[next_++]};
+  job.known = {request_->known[next_++]};
   return job;
 }
 
 bool RemotePricing::has_jobs() const {
   const std::lock_guard lock(mutex_);
-  return share_ && next_ < share_->known.size();
+  return request_ && next_ < request_->known.size();
 }
 
 void RemotePricing::commit(PricingJob job) {
@@ -57,8 +57,8 @@ void RemotePricing::commit(PricingJob job) {
 
 std::optional<PricingReply> RemotePricing::take_answer() {
   const std::lock_guard lock(mutex_);
-  if (!share_ || done_ < share_->known.size()) return std::nullopt;
-  share_.reset();
+  if (!request_ || done_ < request_->known.size()) return std::nullopt;
+  request_.reset();
   return std::exchange(answer_, {});
 }
 

@@ -37,7 +37,7 @@ class RemotePricing {
   const Instance& instance_;
   Multipliers multipliers_;  // changes only when no job is in progress
   mutable std::mutex mutex_;
-  std::optional<PricingRequest> share_;  // current request; mutex_ guards it and all below
+  std::optional<PricingRequest> request_;  // current request; mutex_ guards it and all below
   PricingReply answer_;
   std::size_t next_ = 0;  // position of the next job in the request
   std::size_t done_ = 0;

@@ -87,7 +87,8 @@ void set(Tuning& tuning, std::string_view text) {
   if (former != std::end(kFormer)) return require_value_of_constant(*former, value);
   const auto tunable = std::ranges::find(kTunables, current_name(name), &Tunable::name);
   if (tunable == std::end(kTunables) || name.size() == text.size())
-    throw std::invalid_argument(fmt::format("found '{}'; expected NAME=VALUE", text));
+    throw std::invalid_argument(
+        fmt::format("found '{}'; expected NAME=VALUE with the name of a parameter", text));
   std::visit(
       [&](auto at) {
         using Number = std::remove_reference_t<decltype(tuning.*at)>;

@@ -8,9 +8,9 @@ bool FreeOrderGoals::assign(SequenceStages& goals, SafeIntervals& intervals,
   goals_ = &goals;
   inflation_percent_ = inflation_percent;
   const AgentStops& stops = goals.stops();
-  intervals.see(stops.start_place());
-  if (stops.destination()) intervals.see(*stops.destination());
-  for (int stop = 0; stop < stops.count(); ++stop) intervals.see(stops.place(stop));
+  intervals.ensure_intervals(stops.start_place());
+  if (stops.destination()) intervals.ensure_intervals(*stops.destination());
+  for (int stop = 0; stop < stops.count(); ++stop) intervals.ensure_intervals(stops.place(stop));
   find_deadlines(intervals);
   find_rests(intervals);
   return first_rest_ < kNever && first_rest_ <= intervals.latest_rest() && goals.plausible();

@@ -37,7 +37,7 @@ class LateCosts {
       : world_(world), stops_(stops), matrix_(stops.cost_to_go().matrix()) {
     last_.resize(static_cast<std::size_t>(world.place_count()), kNever);
     for (Place place = 0; place < world.place_count(); ++place) {
-      intervals.see(place);
+      intervals.ensure_intervals(place);
       last_[place] = intervals.last_time(place);
       if (last_[place] == kNever) continue;
       world.for_each_state(place, [this](State state) { barred_.push_back(state); });

@@ -40,8 +40,9 @@ struct SafeInterval {
 // length of the corridors with barred traversals; the first list that bars a traversal also takes
 // O(places). One thread at a time.
 //
-// With reservations instead of constraints, see() makes the intervals of a place on demand: the
-// caller must call it before any other query about the place. With constraints see() does nothing.
+// With reservations instead of constraints, ensure_intervals() makes the intervals of a place on
+// demand: the caller must call it before any other query about the place. With constraints
+// ensure_intervals() does nothing.
 //
 // Each arrival leads to one slot, and the slot determines the continuations after the arrival:
 //
@@ -70,7 +71,7 @@ class SafeIntervals {
   // with a reserved path. `reservations` must exist and not change until the next assign().
   void assign(const ReservationTable& reservations);
 
-  void see(Place place) {
+  void ensure_intervals(Place place) {
     if (reservations_ && group_of_[place] == kNoGroup) add_reserved_place(place);
   }
   // Upper bound on slot_count() until the next assign().
@@ -206,7 +207,7 @@ class SafeIntervals {
     const Place from = place_of(state);
     for (State next : world_.moves(state)) {
       const Place to = place_of(next);
-      see(to);
+      ensure_intervals(to);
       if (unconstrained(to))
         arrive(next, next, from_time + 1);
       else if (to == from)

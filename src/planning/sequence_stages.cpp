@@ -312,19 +312,19 @@ Sequence realized_sequence(const SequenceStages& goals, const Path& path) {
     return so_far.size() > sequence_class.prefix.size() ||
            !holds(sequence_class.forbidden_next, stop);
   };
-  const auto complete = static_cast<std::size_t>(stops.count());
+  const auto stop_count = static_cast<std::size_t>(stops.count());
   const int last = !stops.rests_on_last_stop() || path.empty() ? AgentStops::kNoStop
                                                                : stops.stop_at(path.back());
   Sequence sequence;
   for (const State state : path) {
     const int stop = stops.stop_at(state);
     if (stop < 0 || !next_in_class(sequence, stop)) continue;
-    if (stop != last || sequence.size() + 1 == complete)
+    if (stop != last || sequence.size() + 1 == stop_count)
       sequence.push_back(static_cast<Stop>(stop));
   }
   const bool rests = stops.rests_on_last_stop() ? !sequence.empty() && sequence.back() == last
                                                 : !path.empty() && stops.to_rest(path.back()) == 0;
-  if (sequence.size() != complete || !rests)
+  if (sequence.size() != stop_count || !rests)
     throw std::invalid_argument("the path realizes no sequence of the class");
   return sequence;
 }

@@ -35,7 +35,7 @@ Time SingleStopBound::min_cost_through(int via) {
   earliest_.assign(2 * static_cast<std::size_t>(intervals_.slot_limit()), kNever);
   queue_.reset(bound_);
   const State start = stops_->start();
-  intervals_.see(world_.place(start));
+  intervals_.ensure_intervals(world_.place(start));
   if (const int slot = intervals_.start_slot(start); slot >= 0) reach(slot, start, 0, false);
   Queue::Entry entry;
   while (queue_.pop(entry)) {

@@ -137,11 +137,11 @@ void Neighborhoods::update_reduced_costs() {
   if (seen_prices_ != low_level_.price_changes()) {
     seen_prices_ = low_level_.price_changes();
     reduced_cost_.resize(agents);
-    seen_editions_.assign(agents, 0);
+    seen_versions_.assign(agents, 0);
   }
   for (AgentIndex agent = 0; agent < std::ssize(paths_.paths()); ++agent) {
-    if (seen_editions_[agent] == paths_.version(agent)) continue;
-    seen_editions_[agent] = paths_.version(agent);
+    if (seen_versions_[agent] == paths_.version(agent)) continue;
+    seen_versions_[agent] = paths_.version(agent);
     reduced_cost_[agent] =
         std::max<ScaledCost>(0, dual_solution.multipliers.price(agent, paths_.path(agent)) -
                                     dual_solution.values[agent]);

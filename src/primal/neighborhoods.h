@@ -65,7 +65,7 @@ class Neighborhoods {
   std::vector<AgentIndex> chosen_;
   int seen_prices_ = 0;                      // PrimalLowLevel::price_changes() of reduced_cost_
   std::vector<ScaledCost> reduced_cost_;     // by agent: reduced cost of its path
-  std::vector<std::int64_t> seen_editions_;  // by agent: edition of the path of reduced_cost_
+  std::vector<std::int64_t> seen_versions_;  // by agent: version of the path of reduced_cost_
   std::vector<Place> queue_;
   std::vector<std::int32_t> seen_at_;  // by place: the last breadth-first search that reached it
   std::int32_t search_ = 0;

@@ -199,7 +199,7 @@ class PrimalSearch::Impl {
   bool improving_ = false;       // there is a plan in paths_
   Cost best_ = kInfiniteCost;
   std::vector<Path> best_paths_;  // by agent: paths of the best plan, if it was found here
-  std::vector<std::int64_t> best_editions_;  // by agent: edition in paths_ that best_paths_ holds
+  std::vector<std::int64_t> best_versions_;  // by agent: version of its path in best_paths_
   Cost reported_cost_ = kInfiniteCost;       // cost of the best plan returned or adopted
   std::int64_t work_at_last_report_ = 0;
   PlanSource source_ = PlanSource::kPrioritizedPlanning;
@@ -244,10 +244,10 @@ void PrimalSearch::Impl::keep_best() {
   best_ = paths_.cost();
   source_ = source_of_paths_;
   best_paths_.resize(static_cast<std::size_t>(agents_));
-  best_editions_.resize(best_paths_.size(), 0);
+  best_versions_.resize(best_paths_.size(), 0);
   for (AgentIndex agent = 0; agent < agents_; ++agent) {
-    if (best_editions_[agent] == paths_.version(agent)) continue;
-    best_editions_[agent] = paths_.version(agent);
+    if (best_versions_[agent] == paths_.version(agent)) continue;
+    best_versions_[agent] = paths_.version(agent);
     best_paths_[agent] = paths_.path(agent);
   }
 }

@@ -23,8 +23,8 @@
 // *Claim: no plan is lost.* *Proof.* A split is a pair of constraints such that every conflict-free
 // plan satisfies at least one of them (see conflict.cpp, target.cpp, corridor.cpp). This holds
 // whichever split is chosen and whatever the paths are. A branch is closed only if the sum of costs
-// reaches the cutoff under its constraint and those of the node. In this sum, each agent that is
-// not re-planned counts with its cost at the node, which is a lower bound.
+// reaches the cutoff under its constraint and those of the node. For each agent that is
+// not re-planned, the sum contains its cost at the node, which is a lower bound.
 #include "search/brancher.h"
 
 #include <algorithm>

@@ -104,8 +104,8 @@ class DependencyTable {
     Id second;
     ExcessBound known;
   };
-  // One list of items per subproblem. An array finds the list, because the subproblems of a part
-  // have consecutive positions (Id / kParts).
+  // One list of items per subproblem, looked up by array index instead of a hash table, because the
+  // subproblems of a part have consecutive positions (Id / kParts).
   template <class Item>
   class Lists {
    public:

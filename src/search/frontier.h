@@ -76,7 +76,8 @@ class Frontier {
   void abandon();
 
   // The least bound of all live nodes (open or taken) and evicted nodes; kInfiniteCost if there is
-  // none. After restart(), each node counts with at least the bound proven before.
+  // none. After restart(), a node with a lower bound counts with the bound that was proven before
+  // the restart.
   Cost bound() const;
   std::size_t open() const;
   // The number of open nodes with one bound.

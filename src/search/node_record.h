@@ -9,7 +9,8 @@
 
 namespace grove::detail {
 
-// All constraints of a node, its paths and bounds, and the number of its tree.
+// All constraints of a node, its paths that differ from those of the root, its cost and bound, and
+// the number of its tree.
 struct NodeRecord {
   struct Walk {
     AgentIndex agent = -1;

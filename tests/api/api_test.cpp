@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests the public C++ API as users see it: the only Grove header included is <grove/grove.hpp>.
+// Tests the public C++ API as users see it: of the library's headers it includes only
+// <grove/grove.hpp>.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

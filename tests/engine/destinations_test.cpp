@@ -83,7 +83,7 @@ TEST(Destinations, AreTheCheapestDistinctEndsOfManyTasks) {
              Tuning().visitor_steps * (std::ssize(instance.task(task).agents) - 1);
     };
     Cost best = kInfiniteCost;
-    Cost cost = kInfiniteCost;  // cost of the best choice
+    Cost cost = kInfiniteCost;  // cost of the chosen destinations
     for (int i = 0; i < kTasks; ++i)
       for (int j = 0; j < kTasks; ++j) {
         const TaskIndex tasks[] = {instance.agent(0).tasks[i], instance.agent(1).tasks[j]};

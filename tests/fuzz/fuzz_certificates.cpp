@@ -141,7 +141,7 @@ class Trial {
     if (a_.mutations == 0) return;
     const Lines original = certificate_lines(proof_);
     for (int i = 0; i < a_.mutations; ++i)
-      mutate(original, seed * 1000 + static_cast<std::uint64_t>(i));
+      verify_mutant(original, seed * 1000 + static_cast<std::uint64_t>(i));
   }
 
   bool is_well() const { return wrong_ == 0; }
@@ -227,7 +227,7 @@ class Trial {
       complain(fmt::format("only {} of {} is certified", made.bound, claimed));
   }
 
-  void mutate(const Lines& original, std::uint64_t seed) {
+  void verify_mutant(const Lines& original, std::uint64_t seed) {
     const Lines lines = mutated(original, seed);
     if (lines == original) return;
     std::ofstream out(mutant_, std::ios::binary);

@@ -100,7 +100,7 @@ Rows obstacles(int w, int h, int percent, Random& random) {
   return rows;
 }
 
-// A corridor with dead ends, bays, and loops that start and end at one cell.
+// A corridor with bays, dead ends, and loops that are joined to it by one cell or by two.
 Rows lollipops(int length, Random& random) {
   Rows rows = filled(length, 7, '@');
   for (int x = 0; x < length; ++x) rows[3][x] = '.';

@@ -69,8 +69,8 @@ TEST(WdgHeuristic, ReturnsTheCutoffIfTheExcessReachesIt) {
   }
 }
 
-// If a bound was computed with little slack, it claims no more than that slack, even in later
-// queries.
+// A bound that was computed under a low cutoff proves only the excess up to that cutoff, so a later
+// query without a cutoff must not return more.
 TEST(WdgHeuristic, ClaimsNoMoreThanTheSlackHasProven) {
   for (const Cost above : {1, 2, 3}) {
     Bounded s(kDoor, kHeadOn);

@@ -64,12 +64,12 @@ struct PaperArguments {
 
 // --- Moving AI's maps ---
 
-constexpr std::int64_t kOfAKind = 25;
+constexpr std::int64_t kScenariosPerKind = 25;
 
 fs::path scenario_file(const PaperArguments& arguments, const std::string& map, std::int64_t k) {
-  return fs::path(arguments.movingai) / (k <= kOfAKind
-                                             ? fmt::format("{}-random-{}.scen", map, k)
-                                             : fmt::format("{}-even-{}.scen", map, k - kOfAKind));
+  return fs::path(arguments.movingai) /
+         (k <= kScenariosPerKind ? fmt::format("{}-random-{}.scen", map, k)
+                                 : fmt::format("{}-even-{}.scen", map, k - kScenariosPerKind));
 }
 
 // Throws InputError if a scenario file is missing. Checks all files first, because benchmarks are
@@ -109,7 +109,7 @@ void load_scenarios(const PaperArguments& arguments, const std::string& name, Ma
 }
 
 std::vector<MapSet> load_map_sets(const PaperArguments& arguments) {
-  if (std::ranges::max(arguments.scenarios) > 2 * kOfAKind)
+  if (std::ranges::max(arguments.scenarios) > 2 * kScenariosPerKind)
     throw CLI::ValidationError("--scenarios",
                                "found more than 50 with --movingai; expected at most 50");
   std::vector<MapSet> sets;

@@ -91,8 +91,8 @@ class Fuzzer {
     return work;
   }
 
-  // Returns at random the cost-to-go that the search uses, the same as a graph, or as a graph by
-  // direct legs.
+  // Returns at random one of three equivalent costs to go: those that the search uses, those of a
+  // graph, or those of a graph by direct legs (direct_legs.h) for the class `work`.
   CostToGo cost_to_go_of(const AgentStops& stops, const SequenceClass& work) {
     const CostToGo& given = stops.cost_to_go();
     switch (below(3)) {

@@ -118,7 +118,7 @@ struct Done {
     rest: Vec<(u32, u32)>,
 }
 
-/// A restriction of the order of stops (`allowed[k]`: the stops that may have number k), with the remaining costs of paths that cost at
+/// A restriction of the order of stops (`allowed[k]`: the stops that may be at position k), with the remaining costs of paths that cost at
 /// most `limit`.
 struct Choice {
     allowed: Vec<u64>,
@@ -214,7 +214,7 @@ impl AgentModel {
         (0..self.stops.len()).filter(|&j| stops >> j & 1 == 1 && self.stops[j].duration == 0).fold(0, |all, j| all | 1 << j)
     }
 
-    /// Sets the current restriction of the order of stops. `allowed[k]` is the set of stops that may have number k.
+    /// Sets the current restriction of the order of stops. `allowed[k]` is the set of stops that may be at position k.
     pub fn choose(&mut self, allowed: &[u64]) {
         match self.choices.iter().position(|choice| choice.allowed == allowed) {
             Some(known) => self.now = known,

@@ -23,7 +23,7 @@ pub struct Orders<'a> {
     pub durations: Vec<u32>,
     /// The stop whose task the agent executes at time 0, its post, and the time at which this execution ends.
     pub working: Option<(usize, u32, u32)>,
-    /// `allowed[k]`: the stops that may have number k.
+    /// `allowed[k]`: the set of stops that may be at position k, from 0, of the order.
     pub allowed: &'a [u64],
 }
 

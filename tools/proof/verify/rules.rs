@@ -101,7 +101,7 @@ pub struct Rules {
     safe: Vec<(u32, u32)>,
     moves: Vec<Constraint>,
     passes: Vec<(u32, u8, u32, u32)>,
-    /// `allowed[k]`: the stops that may have number k.
+    /// `allowed[k]`: the set of stops that may be at position k, from 0, of the order.
     pub allowed: Vec<u64>,
     /// Whether a constraint restricts the order of stops.
     pub ordered: bool,

@@ -13,7 +13,9 @@ MOST_TICKS = 20             # maximum number of late ticks that are run at once 
 
 
 class Lift:
-    """A lift: a hand lifts the cube at a time and puts it back later, at a given place or near its last position."""
+    """A disturbance: a hand lifts the cube at time `at` and puts it back `seconds` later, at `where` or, if that is
+    None, near its last position.
+    """
 
     def __init__(self, cube, at, seconds, where=None):
         self.cube, self.at, self.until, self.where = cube, at, at + seconds, where

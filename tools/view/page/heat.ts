@@ -30,7 +30,8 @@ function addWaits(heat: Float32Array, { plan, facts }: PlanView): void {
   });
 }
 
-// Counts, for each place, the waits without which the waiting robot would first have met another one there.
+// Counts, for each place, the waits that avoid a meeting there: without the wait, the robot would have met another
+// robot for the first time at this place.
 function addYields(heat: Float32Array, { waits }: PlanView): void {
   for (const wait of waits.all) if (wait.firstMeetingPlace >= 0) ++heat[wait.firstMeetingPlace];
 }

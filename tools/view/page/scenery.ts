@@ -12,7 +12,7 @@ import { paintTasks } from "./tasks_canvas";
 import { outlined } from "./text";
 
 const kLeastOwned = 34; // pixels per step, from which on destinations show the ids of their robots
-const kLongestOwner = 9;
+const kMaxOwnerLabelLength = 9;
 
 export interface PathPainter {
   paint(
@@ -44,7 +44,7 @@ export class Scenery {
     private readonly facts: { readonly tasks: TaskFacts[] } | null,
   ) {
     this.goals = new Set(model.agents.map(({ goal }) => goal));
-    this.owners = labelsOf(model.agents.map(({ name }) => name), kLongestOwner);
+    this.owners = labelsOf(model.agents.map(({ name }) => name), kMaxOwnerLabelLength);
     model.tasks.forEach(({ place }, index) => {
       const others = this.tasksByPlace.get(place);
       if (others) others.push(index);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Page of a run: reads the log, from the page or from the server while it grows, and shows it.
+// The page of a run. Displays the log, which is embedded in the page or, while the run writes it, comes from the server.
 
 import { el, setText } from "../page/dom";
 import { Chart } from "./chart";
