@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Problem: choose the task on which each agent without a destination ends. The choice is a
-// least-cost assignment of agents to tasks. The cost of (agent, task) is the cost of the agent's
-// best sequence that ends on the task, plus a charge for each other agent that must visit the task.
+// least-cost assignment of agents to places with tasks, because no two agents can rest on one
+// place. The cost of (agent, place) is the cost of the agent's best sequence that ends on
+// its task there, plus a charge for each other agent that must visit the place.
 //
 // Charge for visitors. Once an agent rests, no other agent can visit its place. All other agents
 // that must visit the place have to do so before, which under fixed sequences is often possible
@@ -21,6 +22,8 @@
 #include "engine/destinations.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "sequencing/assignment.h"
 #include "sequencing/cost_matrix.h"
@@ -89,6 +92,14 @@ class DestinationChooser {
     const Instance& instance = problem.instance;
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)
       if (!instance.agent(agent).goal) ends_.emplace_back(problem, agent);
+    std::map<Place, TaskIndex> first_tasks;
+    std::map<TaskIndex, std::set<AgentIndex>> agents;
+    for (TaskIndex task = 0; task < instance.task_count(); ++task) {
+      const Task& t = instance.task(task);
+      columns_.push_back(first_tasks.try_emplace(t.cell, task).first->second);
+      agents[columns_.back()].insert(t.agents.begin(), t.agents.end());
+    }
+    for (const TaskIndex column : columns_) visitors_.push_back(std::ssize(agents[column]) - 1);
   }
 
   std::optional<Destinations> choose() {
@@ -116,7 +127,7 @@ class DestinationChooser {
     return true;
   }
 
-  // Cost matrix of the assignment, by position in ends_, then by task.
+  // Cost matrix of the assignment, by position in ends_, then by column.
   std::vector<std::vector<std::int64_t>> costs() const {
     const auto tasks = static_cast<std::size_t>(problem_.instance.task_count());
     std::vector<std::vector<std::int64_t>> costs(ends_.size(),
@@ -124,14 +135,17 @@ class DestinationChooser {
     for (std::size_t i = 0; i < ends_.size(); ++i)
       for (TaskIndex task : ends_[i].tasks())
         if (const Cost cost = cost_of(ends_[i], task); cost < kNever && !is_destination(task))
-          costs[i][task] = cost;
+          costs[i][columns_[task]] = cost;
     return costs;
   }
   // Cost of an end including the charge for visitors; kNever or more: not known.
   Cost cost_of(const Ends& ends, TaskIndex task) const {
     const auto stop = std::ranges::find(ends.tasks(), task) - ends.tasks().begin();
-    const auto visitors = std::ssize(problem_.instance.task(task).agents) - 1;
-    return ends.cost(static_cast<int>(stop)) + visitor_steps_ * visitors;
+    return ends.cost(static_cast<int>(stop)) + visitor_steps_ * visitors_[task];
+  }
+  // The agent's task in this column. The agent must have one; it never has two (method.cpp).
+  TaskIndex task_in(const Ends& ends, int column) const {
+    return *std::ranges::find(ends.tasks(), column, [&](TaskIndex task) { return columns_[task]; });
   }
   bool is_destination(TaskIndex task) const {
     return std::ranges::any_of(problem_.instance.agents(), [&](const Agent& agent) {
@@ -145,7 +159,7 @@ class DestinationChooser {
     if (!assignment) return false;
     Cost excess = 0;
     for (std::size_t i = 0; i < ends_.size(); ++i)
-      excess += cost_of(ends_[i], (*assignment)[i]) - ends_[i].best();
+      excess += cost_of(ends_[i], task_in(ends_[i], (*assignment)[i])) - ends_[i].best();
     return std::ranges::all_of(ends_, [&](const Ends& ends) {
       return ends.all_known() || excess < ends.outside_bound() - ends.best();
     });
@@ -154,7 +168,7 @@ class DestinationChooser {
                                      const std::vector<int>& assignment) const {
     chosen.tasks.assign(static_cast<std::size_t>(problem_.instance.agent_count()), kNoTask);
     for (std::size_t i = 0; i < ends_.size(); ++i) {
-      chosen.tasks[ends_[i].agent()] = assignment[i];
+      chosen.tasks[ends_[i].agent()] = task_in(ends_[i], assignment[i]);
       chosen.bound += ends_[i].best();
     }
     return chosen;
@@ -164,6 +178,8 @@ class DestinationChooser {
   const Cost visitor_steps_;
   const Limits& limits_;
   std::vector<Ends> ends_;
+  std::vector<TaskIndex> columns_;  // by task: the first task on its place
+  std::vector<Cost> visitors_;      // by task: number of agents with a task on its place, less 1
 };
 
 }  // namespace

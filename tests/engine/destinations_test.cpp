@@ -97,5 +97,25 @@ TEST(Destinations, AreTheCheapestDistinctEndsOfManyTasks) {
   }
 }
 
+// Two agents cannot both rest on a place where each has a task of its own.
+TEST(Destinations, AreOnDifferentPlaces) {
+  InstanceBuilder builder(Grid(5, 2, std::vector<bool>(10, true)));
+  builder.add_agent("a", Position{0, 0}, std::nullopt);
+  builder.add_agent("b", Position{4, 0}, std::nullopt);
+  const std::string a[] = {"a"};
+  const std::string b[] = {"b"};
+  builder.add_task("shared-place-a", Position{2, 0}, a);
+  builder.add_task("shared-place-b", Position{2, 0}, b);
+  builder.add_task("other", Position{0, 1}, a);
+  const Instance instance = std::move(builder).build();
+  const Problem problem(instance, Limits());
+  const auto chosen = choose_destinations(problem, Tuning().visitor_steps, Limits());
+  ASSERT_TRUE(chosen);
+  EXPECT_EQ(chosen->tasks, (std::vector<TaskIndex>{2, 1}));
+  const Instance with = with_destinations(instance, *chosen);
+  EXPECT_EQ(with.agent(0).goal, instance.task(2).cell);
+  EXPECT_EQ(with.agent(1).goal, instance.task(1).cell);
+}
+
 }  // namespace destinations_test
 }  // namespace grove::detail
