@@ -49,7 +49,7 @@ TEST_P(Baselines, ArriveLateIfEarlyArrivalLeadsNowhere) {
   EXPECT_EQ(cost(instance, {{1, kNoCell, 3, 4}, {2, kNoCell, 3, 4}, {3, kNoCell, 3, 9}}), 11);
 }
 
-// The end that is nearer to the start is blocked later.
+// In each further case the cell on which the cheapest path rests is blocked at a later time.
 TEST_P(Baselines, DoNotRestOnACellThatIsBlockedLater) {
   const Instance instance = instance_of({"......"}, {{{1, 0}, std::nullopt, {{0, 0}, {5, 0}}}});
   EXPECT_EQ(cost(instance, {}), 6);

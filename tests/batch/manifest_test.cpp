@@ -152,7 +152,8 @@ TEST_F(Manifests, RefuseOtherFilesAndFolders) {
       std::string::npos);
 }
 
-// A digest changes if and only if the contents of the instance or of its map change.
+// A digest depends on the instance that is read, including its map, and not on the text or the
+// location of the files.
 TEST_F(Manifests, GiveADigestThatChangesWithTheInstance) {
   const std::string map = "type octile\nheight 1\nwidth 3\nmap\n...\n";
   const auto instance = [](const std::string& file, const std::string& id, int goal) {

@@ -34,7 +34,8 @@ bool collide(const Path& a, const Path& b, Time t, bool may_follow = true) {
   return t > 0 && at(a, t) == at(b, t - 1) && at(b, t) == at(a, t - 1);
 }
 
-// All times at which pairs of agents collide, except times at which both agents wait.
+// Collisions of pairs of agents, each as the time and the two agents. Times at which both agents
+// wait do not count.
 using Collisions = std::multiset<std::tuple<Time, AgentIndex, AgentIndex>>;
 
 Collisions collisions(const std::vector<Path>& paths, const std::vector<AgentIndex>& agents,

@@ -124,8 +124,8 @@ TEST_F(CentralBoundsTest, BoundProvenOutsideTheTreesCanCloseTheGap) {
   EXPECT_FALSE(bounds_.has_no_joint_plan());
 }
 
-// If the trees hold no plan, that is the reason for infeasibility, not a weaker bound proven
-// elsewhere.
+// If the tree search proves infeasibility, a later, weaker bound from elsewhere does not count as
+// the proof.
 TEST_F(CentralBoundsTest, WeakerBoundIsNotTheReasonForInfeasibility) {
   nodes_.least = kInfiniteCost;
   bounds_.expect_trees_from(kInfiniteCost);
@@ -135,8 +135,8 @@ TEST_F(CentralBoundsTest, WeakerBoundIsNotTheReasonForInfeasibility) {
   EXPECT_FALSE(bounds_.has_no_joint_plan());
 }
 
-// Another worker pushes the root of the last tree and reports it just after the bound of the nodes
-// has been read.
+// While the bound of the nodes is read, another worker reports that it has pushed the root of the
+// last tree. The bound that is read does not include this root yet.
 TEST_F(CentralBoundsTest, TreeAddedWhileTheBoundIsReadIsCounted) {
   nodes_.least = kInfiniteCost;
   nodes_.when_read = [&] { bounds_.expect_trees_from(kInfiniteCost); };

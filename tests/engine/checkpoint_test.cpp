@@ -32,8 +32,8 @@ struct Whole {
   std::vector<NodeRecord> nodes;
 };
 
-// Generates search nodes breadth-first from the roots of the first five trees of a forest with
-// fixed sequences, without the roots.
+// Search nodes generated breadth-first from the roots of the first five trees of a forest with
+// fixed sequences. The roots are not included.
 class Search {
  public:
   Search() {
@@ -313,7 +313,7 @@ TEST_F(DamagedCheckpoint, IsRefusedIfBytesFollowItsEnd) {
   expect_damage_found(bytes_ + bytes_, "behind", bytes_.size());
 }
 
-// Returns the offset of each block, and of the end of the last block.
+// Returns the offset of each block, followed by that of the end of the file.
 std::vector<std::size_t> block_begins(const std::string& bytes) {
   std::vector<std::size_t> begins{12};
   while (begins.back() < bytes.size()) {

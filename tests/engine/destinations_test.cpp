@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Tests the choice of destinations for agents with more tasks than a cost-to-go table can hold,
-// whose costs by last task are computed incrementally. Compares the result with Held-Karp and an
-// enumeration of all choices. (tests/fuzz/methods_test.cpp covers fewer tasks.)
+// Tests the choice of destinations for agents with more tasks than a cost-to-go table can hold. For
+// these agents the costs of ending on each task are computed incrementally. Compares the result
+// with Held-Karp and an enumeration of all choices. (tests/fuzz/methods_test.cpp covers fewer
+// tasks.)
 #include "engine/destinations.h"
 
 #include <gtest/gtest.h>
@@ -19,10 +20,11 @@ namespace grove::detail {
 namespace destinations_test {
 
 constexpr int kTasks = 15;
-// With seed 233 the best choice uses an end that the first iteration does not find.
+// With seed 233 the best choice uses an end that costs more than the first limit (kFirstReach in
+// src/engine/destinations.cpp).
 constexpr int kFirstSeed = 230;
 
-// Returns the cost of the agent's best sequence for each last task.
+// Returns, for each task, the cost of the agent's best sequence that ends with it (Held-Karp).
 std::vector<Cost> costs_of_ends(const Instance& instance, AgentIndex agent) {
   std::vector<std::vector<Time>> distances;
   std::vector<Cell> cells;

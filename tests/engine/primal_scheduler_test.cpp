@@ -17,7 +17,8 @@ namespace primal_scheduler_test {
 
 constexpr std::int64_t kLong = 6'400'000;  // tree effort at which the cap reaches its full value
 
-// An instance with its primal search, which with Techniques() never expects a plan soon.
+// An instance with its primal search. With Techniques() there is no LaCAM, so expects_plan() is
+// always false.
 struct Setting {
   explicit Setting(Instance the_instance, Techniques techniques = Techniques())
       : instance(std::move(the_instance)), primal(problem, stops, 1, techniques) {}

@@ -10,8 +10,8 @@
 
 namespace grove::detail::testing {
 
-// Returns delays of at most two robots, each of 1 to min(12, `time`) steps. `time`: steps of the
-// plan executed so far; if it is 0, there are no delays.
+// Returns delays of at most two robots, each of 1 to min(12, `time`) steps. `time`: steps by which
+// the plan is advanced; if it is 0, there are no delays.
 std::vector<Delay> random_delays(const Instance& instance, Time time, Random& random);
 
 // Returns a change that does one or more of these: add a task; drop a task, if there is one; close

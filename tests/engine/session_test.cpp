@@ -188,7 +188,7 @@ TEST(Session, DelayAppliesToWorkBegunBeforeTheStart) {
     EXPECT_EQ(session.plan()->cost, 4 + steps);
     EXPECT_EQ(solved(session, Omega()).plan->cost, 4 + steps);
   }
-  // Without the delay it would have completed the task.
+  // Without the delay the robot would have completed the task by then.
   Session session = session_of(working_robot());
   const Delay late{0, 4};
   session.advance(6, {&late, 1});
@@ -228,8 +228,8 @@ TEST(Session, AgentWithoutDestinationEndsOnAnyRemainingTask) {
   EXPECT_FALSE(solution.stats.texts.contains("ends_of_old_plan"));
 }
 
-// If the agent cannot end on another task, it ends where the old plan ends, and the statistics
-// report this.
+// If the agent cannot end on any of its remaining tasks, it ends where the old plan ends, and the
+// statistics report this.
 TEST(Session, EndOfTheOldPlanIsKeptIfNoOtherIsFree) {
   for (const Time commit : {0, 1}) {
     Session session = returning_session(true);
@@ -304,8 +304,8 @@ bool same_actions(const ActionDependencyGraph& before, const ActionDependencyGra
   return true;
 }
 
-// Lets robots follow the old action dependency graph with random delays within the committed steps,
-// and expects that the new graph allows every state in which they can be.
+// Executes the committed actions of the old action dependency graph with random delays, and expects
+// that every state during this execution also agrees with the new graph.
 void expect_safe(const Kept& kept, const Instance& now, const Plan& plan, std::uint64_t seed) {
   const ActionDependencyGraph before(kept.instance, kept.plan);
   const ActionDependencyGraph after(now, plan);

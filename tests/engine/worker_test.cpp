@@ -66,7 +66,7 @@ TEST(Worker, WorkItemIsVisibleToOthersOnceCommitted) {
 }
 
 // The effort of an item is its number of labels, plus 16 per call of the low level, plus a quarter
-// of the steps of the node's paths, plus 1. whole_work() adds the other expensive operations.
+// of the node's cost, plus 1. whole_work() also counts the other expensive operations.
 TEST(Worker, CountsTheWorkOfAnItem) {
   Search s({Technique::kStrongBranching, Technique::kWdg, Technique::kJointMdd});
   Worker worker = s.worker();

@@ -57,8 +57,8 @@ TEST(ActionDependencyGraph, FollowerDependsOnTheMoveOfItsLeader) {
   EXPECT_THAT(dependencies(order), ElementsAre(kNoAction, kNoAction, 0, 1));
 }
 
-// The second agent enters places that the first agent has left. A dependency is omitted if the
-// first agent left the place even earlier, because an earlier dependency then implies it.
+// Agent 1 enters places that agent 0 has left. The dependency for a place is omitted if agent 1 has
+// already entered another place that agent 0 left later, because that dependency implies it.
 TEST(ActionDependencyGraph, OmitsTransitiveDependencies) {
   const Instance instance = instance_of(
       {"....", "...."}, {AgentSpec{{0, 0}, Position{3, 1}}, AgentSpec{{0, 1}, Position{3, 0}}});
@@ -67,7 +67,7 @@ TEST(ActionDependencyGraph, OmitsTransitiveDependencies) {
       plan_of(instance,
               {{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}},
                {{0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {1, 1}, {2, 1}, {2, 0}, {3, 0}}}));
-  EXPECT_EQ(order.dependency_count(), 2);  // for (2, 0) and (3, 0), which is left later
+  EXPECT_EQ(order.dependency_count(), 2);  // for (2, 0) and, left later, (3, 0)
   const Instance back = instance_of(
       {"....", "...."}, {AgentSpec{{0, 0}, Position{3, 1}}, AgentSpec{{0, 1}, Position{0, 0}}});
   const ActionDependencyGraph backwards(
@@ -76,7 +76,7 @@ TEST(ActionDependencyGraph, OmitsTransitiveDependencies) {
               {{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}},
                {{0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {1, 1}, {2, 1}, {2, 0}, {1, 0}, {0, 0}}}));
   EXPECT_EQ(backwards.dependency_count(),
-            1);  // for (2, 0) only, because (1, 0) and (0, 0) were left before
+            1);  // for (2, 0) only: (1, 0) and (0, 0) were left earlier
   EXPECT_EQ(backwards.removed_dependency_count(), 2);
 }
 

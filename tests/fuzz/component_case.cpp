@@ -10,7 +10,7 @@
 namespace grove::detail::fuzz {
 namespace {
 
-constexpr double kAtOnce = 1e6;  // effort ratio: all other components wait
+constexpr double kAtOnce = 1e6;  // effort ratio at which all other components wait
 constexpr std::int64_t kToTheEnd = 1'000'000'000'000;
 
 std::vector<std::string> open_board(Random& random) {

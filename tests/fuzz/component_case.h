@@ -34,9 +34,9 @@ inline constexpr std::array kParts = {
     NamedPart{Part::kSequences, "sequences"},
 };
 
-// Returns the case of `seed`: for kAny random_case(), for other parts a case without an imposed
-// limit. Half of those have their own boards, often larger than those of random_case(), with up to
-// four agents.
+// Returns the case of `seed`: for kAny random_case(), for any other part a case without an imposed
+// limit. With an even seed such a case has a board of its own, often larger than those of
+// random_case(), and up to four agents.
 FuzzCase component_case(Part part, std::uint64_t seed);
 
 // Returns a valid plan that costs one step more than `plan`, as a start plan that the search has to

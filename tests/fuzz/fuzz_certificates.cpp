@@ -91,7 +91,8 @@ Verdict verdict_of(const Arguments& a, const fs::path& instance, const fs::path&
   return verdict;
 }
 
-// Interrupts a run at its second node, when the Lagrangian bound has its final value.
+// Interrupts a run when it has expanded two nodes. By then the Lagrangian bound has its final
+// value.
 class StopsAtSecondNode : public RunObserver {
  public:
   explicit StopsAtSecondNode(Limits& limits) { limits.watch_interrupt(&interrupt_); }

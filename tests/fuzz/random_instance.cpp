@@ -42,8 +42,8 @@ class Maker {
   }
 
  private:
-  // Replaces the grid's adjacency by roads. Some are long, one-way, parallel or missing. Up to two
-  // more join random cells.
+  // Adds roads between nearly all pairs of adjacent cells, and up to two roads between random
+  // cells. Some roads are long or one-way, and some can be parallel.
   void add_roads() {
     for (const Position p : cells_)
       for (const Position q : cells_)
@@ -106,8 +106,8 @@ class Maker {
     }
   }
 
-  // Sets random destinations and possible task cells, rarely unreachable ones, because presolve
-  // detects these.
+  // Sets random destinations and possible task cells. Only a fifth of the calls can choose
+  // unreachable ones, because presolve detects these.
   void draw_goals() {
     const bool everywhere = random_.percent(20);
     for (auto& agent : instance_.agents) agent.goal.reset();
@@ -137,8 +137,8 @@ class Maker {
     }
   }
 
-  // Returns a task cell for `agent`; up to half of these cells are the start or destination of an
-  // agent.
+  // Returns a random task cell for `agent`. In half of the calls it prefers the start or
+  // destination of a random agent, if `agent` can have a task there.
   Position task_cell(int agent) {
     const Position any = random_.pick(reach_[agent]);
     if (random_.percent(50)) return any;

@@ -32,7 +32,8 @@ inline constexpr std::chrono::milliseconds kPatience{2000};
 
 // Runs the oracle and `solver`, and compares their answers. A short, repeatable run that reached no
 // limit is repeated and must give the same answer; a deterministic run is repeated with another
-// number of threads. Complains also if the solver throws or returns seconds after the deadline.
+// number of threads. Also complains if the solver throws or returns more than 3 s of processor time
+// after the deadline.
 CaseResult run_case(const FuzzCase& fuzz_case, const Solver& solver,
                     std::chrono::milliseconds patience = kPatience);
 

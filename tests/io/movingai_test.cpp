@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The readers are strict but accept the original benchmark files.
+// Tests that the strict readers accept original Moving AI benchmark files without a warning.
 #include "tests/support/movingai.h"
 
 #include <gtest/gtest.h>

@@ -47,11 +47,12 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text.replace(text.find(what), what.size(), by);
 }
 
-// (row,column), as EECBS writes them. LNS2 writes no space after the colon.
+// Paths of cells (row,column), as EECBS writes them. LNS2 writes no space after the colon, as in
+// the second line.
 const std::string kLists =
     "Agent 0: (0,0)->(0,0)->(1,0)->(1,1)->(1,2)->(1,3)->(0,3)->\n"
     "Agent 1:(2,2)->(2,1)->(2,0)->(2,0)->(1,0)->\n";
-// (x,y), as lacam3 writes them.
+// A plan as lacam3 writes it, with cells (x,y).
 const std::string kText =
     "agents=2\nmap_file=m.map\nsolver=planner\nsolved=1\nsoc=10\nsoc_lb=8\nmakespan=6\n"
     "comp_time=1.5\nseed=0\nstarts=(0,0),(2,2),\ngoals=(3,0),(0,1),\nsolution=\n"
@@ -85,7 +86,7 @@ TEST_F(PlanImport, ReadsPlanFiles) {
   EXPECT_EQ(plan.unclaimed, Words());
 }
 
-// Coordinates as x and y. ITA-CBS2 names agents by number, MGCBS by name.
+// A schedule with the keys x and y. ITA-CBS2 names agents by number, MGCBS by name.
 const std::string kSchedule =
     "statistics:\n  cost: 10\n  runtime: 0.1\nschedule:\n"
     "  agent0:\n    - x: 0\n      y: 0\n      t: 0\n    - {x: 0, y: 0, t: 1}\n"

@@ -72,8 +72,8 @@ TEST(FinishTimeConflicts, AgreeWithJointBreadthFirstSearch) {
   EXPECT_GT(others, 200);
 }
 
-// Tests pairs that are found incompatible with sufficient limits. Neither an MDD above its size
-// limit nor a joint search that was cut short proves anything.
+// A pair that is found incompatible with sufficient limits is not found incompatible if one of the
+// limits is 0. An MDD above its size limit or a joint search that was cut short proves nothing.
 TEST(FinishTimeConflicts, ProveNothingWithoutEffort) {
   constexpr FinishTimeConflicts::MaxSizes kEnough{1 << 20, 1 << 20, 1 << 28};
   int excluded = 0;

@@ -43,11 +43,11 @@ class Reference {
       : graph_(graph), penalties_(penalties), finish_(finish) {}
 
   // Returns the least penalized cost of a path that respects the reservations of `others` and
-  // finishes at time `latest` or earlier.
+  // finishes at time `latest` or earlier; kMaxPenaltyCost if there is no such path.
   ScaledCost price(const ReservationTable& others, Time latest = kHorizon) const {
     constexpr ScaledCost kNo = PenalizedSearch::kMaxPenaltyCost;
     std::vector<ScaledCost> paid(graph_.count(), kNo);
-    std::vector<ScaledCost> moved(graph_.count(), kNo);  // if the last step was a move
+    std::vector<ScaledCost> moved(graph_.count(), kNo);  // only paths that end with a move
     if (graph_.count() == 0) return kNo;
     paid[AgentGraph::start()] = moved[AgentGraph::start()] = 0;
     ScaledCost least = kNo;
@@ -90,7 +90,7 @@ class Reference {
 };
 
 // Returns the penalized cost of a path: its finish time, the penalty on that finish, and the
-// penalties of its steps.
+// penalties of its steps and of its rest.
 ScaledCost paid_by(const Path& path, const Penalties& penalties,
                    const std::vector<Amount>& on_finish) {
   const World& world = penalties.world();

@@ -76,7 +76,7 @@ TEST(Limits, StopsOnInterruptAndKeepsTheFirstReason) {
 TEST(ResidentBytes, AreThoseOfTheRunningProcess) {
   const std::size_t now = resident_bytes();
   EXPECT_GT(now, std::size_t{100'000});
-  EXPECT_GE(peak_resident_bytes() + (std::size_t{1} << 20), now);  // the kernel counts per thread
+  EXPECT_GE(peak_resident_bytes() + (std::size_t{1} << 20), now);  // the kernel counts inexactly
 }
 
 TEST(ResidentBytes, CountOnlyAPartOfSharedMemory) {
@@ -88,7 +88,7 @@ TEST(ResidentBytes, CountOnlyAPartOfSharedMemory) {
   const std::size_t whole = resident_bytes();
   set_shared_memory_accounting(4, kSize);
   const std::size_t part = resident_bytes();
-  set_shared_memory_accounting(4, 4 * kSize);  // mostly touched by other processes
+  set_shared_memory_accounting(4, 4 * kSize);  // three quarters touched by others
   const std::size_t part_of_more = resident_bytes();
   set_shared_memory_accounting(1, 0);
   EXPECT_GT(whole, kSize);

@@ -255,7 +255,7 @@ TEST(IsolatedCoordinator, EndsWithoutUnresponsiveRanksAfterALimit) {
   const auto wait = [&] { clock.advance(milliseconds(701)); };
   wait();
   EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0);
-  coordinator.handle(1, message::SnapshotTaken{});  // counts: not abandoned before a limit
+  coordinator.handle(1, message::SnapshotTaken{});  // is used, because no limit is reached yet
   s.limits.stop(StopReason::kTime);
   EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0) << "a message of rank 1 has just arrived";
   clock.advance(milliseconds(699));
@@ -264,7 +264,7 @@ TEST(IsolatedCoordinator, EndsWithoutUnresponsiveRanksAfterALimit) {
   EXPECT_TRUE(transport.sent<message::Terminate>(1).empty());
   clock.advance(milliseconds(1));
   EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0) << "the checkpoint comes first";
-  coordinator.handle(2, message::SnapshotTaken{});  // late
+  coordinator.handle(2, message::SnapshotTaken{});  // after the timeout
   coordinator.step();
   EXPECT_EQ(transport.sent<message::Terminate>(1).size(), 1);
   message::RankFinished finished;

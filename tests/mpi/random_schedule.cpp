@@ -117,7 +117,7 @@ SimulatedNetwork::DelayModel random_delays(Rng& random, int ranks) {
   std::vector<double> typical;
   for (int link = 0; link < ranks * ranks; ++link)
     typical.push_back(kTick * (chance(random, 70) ? usual : paces[random() % paces.size()]));
-  if (chance(random, 30))  // rank 0 reaches one rank much later than others
+  if (chance(random, 30))  // messages from rank 0 to one rank are slow
     typical[random() % static_cast<std::size_t>(ranks)] = kTick * 1000;
   return [&random, typical, ranks](int from, int to, std::size_t) {
     const double most = typical[static_cast<std::size_t>(from * ranks + to)];

@@ -69,8 +69,8 @@ TEST(Constraint, KindsHaveNumbersAndNames) {
   EXPECT_FALSE(constraint_kind(255));
 }
 
-// Compares the constraint on each of three agents that for_each_implied_constraint() and
-// constraint_on() return.
+// For each of three agents, for_each_implied_constraint() and constraint_on() must return the same
+// constraint.
 TEST(Constraint, AppliesToItsAgentAndRestByToAllOthers) {
   const std::array<AgentIndex, 3> all{0, 1, 2};
   const auto implied_by = [&](const AgentConstraint& added) {

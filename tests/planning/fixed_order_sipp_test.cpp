@@ -151,17 +151,17 @@ TEST(FixedOrderSipp, LaterVisitIsTriedWhenFirstVisitLeadsNowhere) {
   EXPECT_EQ(cost_of(grid, agent, constraints), kInfeasible);
 }
 
-// A gate postpones labels. Here some labels are expanded after a gate of an earlier goal, although
-// they can visit that goal before the time g of the gate. The gate must not postpone them, because
-// they violate its first condition, f(L) >= g + after_goal(k).
+// A gate of goal k, set at time g, postpones a label L only if L cannot visit goal k before g, that
+// is, if f(L) >= g + after_goal(k) (fixed_order_goals.h). Here labels for which this condition is
+// false are expanded after the gate was set. The gate must not postpone them.
 TEST(FixedOrderSipp, GateKeepsLabelsThatReachItsGoalEarlier) {
   const Grid grid = grid_of({".......", "@.@@@@@"});
   const SingleAgent agent(grid, 0, {2, 5}, 6);
   const Constraints constraints{
-      {1, kNoCell, 3, 3},     {1, kNoCell, 5, 5},   // arrival on 2 at time 2, 5, or from 7 on
+      {1, kNoCell, 3, 3},     {1, kNoCell, 5, 5},   // possible arrivals on 2: at 2, at 5, from 7 on
       {2, kNoCell, 3, 4},     {2, kNoCell, 6, 6},   //
-      {3, kNoCell, 4, 5},     {3, kNoCell, 8, 30},  // on 2 from 7 on: a long wait
-      {4, kNoCell, 6, 6},     {3, 4, 6, 6},         // on 2 at time 2: trapped at 5
+      {3, kNoCell, 4, 5},     {3, kNoCell, 8, 30},  // arrival from 7 on: a long wait
+      {4, kNoCell, 6, 6},     {3, 4, 6, 6},         // arrival at 2: trapped from time 5 on
       {5, kNoCell, 6, 14},    {6, kNoCell, 6, 15},  //
       {8, kNoCell, 0, kNever}};
   ConflictAvoidanceTable others(grid);

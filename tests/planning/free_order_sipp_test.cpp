@@ -225,9 +225,10 @@ class ManyStops {
     if (with_destination) problem_.destination = cells[1];
   }
 
-  // Adds constraints one at a time. Before each, FixedOrderSipp must find a path of the same cost
-  // for the sequence that the answer realizes, and no cheaper path for any of the first
-  // kMaxSequences sequences of lower cost.
+  // Adds constraints one at a time. Before each addition, FixedOrderSipp must find a path of the
+  // same cost for the sequence that the path found realizes. It must find no cheaper path for the
+  // other sequences of which the cost without constraints is lower; at most kMaxSequences are
+  // tested.
   void check() {
     Agent agent(problem_);
     for (int n = 0; n < 8; ++n) {
@@ -469,8 +470,8 @@ TEST(FreeOrderSipp, StopsWithoutAnswerWhenALimitIsReached) {
   EXPECT_EQ(agent.free.find(agent.goals, {}, memory, path), Outcome::kStopped);
 }
 
-// Memory suffices only for the labels of one order, and the agent may not rest where that order
-// ends. The path back from there is no valid answer, because the other order is cheaper.
+// Memory suffices only for the labels of the order 1, 4, in which the agent may rest only from time
+// 31 on. The search must stop instead of returning such a path, because the order 4, 1 is cheaper.
 TEST(FreeOrderSipp, PathFoundWithoutAllLabelsIsNotReturned) {
   constexpr int kSide = 700;
   std::vector<bool> passable(kSide * kSide);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests the costs of legs while cells are barred forever. In each order their sum must not exceed
-// the cost of a path.
+// Tests lower bounds on the legs of a path when cells are barred forever. For each order of the
+// stops, the sum of the bounds must not exceed the cost of a path.
 #include "planning/late_costs.h"
 
 #include <gtest/gtest.h>
@@ -32,6 +32,7 @@ class LateCosts {
   int count() const { return stops_.count(); }
   const CostMatrix& plain() const { return stops_.cost_to_go().matrix(); }
   // Returns the cost matrix under these constraints, or the plain one if they raise no cost.
+  // `min_cost`: lower bound on the plain cost of every order.
   CostMatrix late(const std::vector<Constraint>& constraints, Time min_cost) {
     intervals_.assign(constraints);
     const auto matrix = late_cost_matrix(grid_, intervals_, stops_, min_cost);
@@ -68,7 +69,8 @@ TEST(LateCosts, LastLegTakesTheDetour) {
   const Grid grid = grid_of(kRoom);
   // From the corner the agent visits (10, 0) and (0, 0) in some order, and then (2, 3).
   LateCosts costs(grid, 48, {10, 0}, 38);
-  const Time least = 24;  // 48 -> 0 -> 10 -> 38 is 4 + 10 + 11; 48 -> 10 -> 0 -> 38: 14 + 10 + 5
+  // 48 -> 0 -> 10 -> 38 costs 4 + 10 + 13, and 48 -> 10 -> 0 -> 38 costs 14 + 10 + 5.
+  const Time least = 24;  // a lower bound on both
   const std::vector<Constraint> shut = {{37, kNoCell, 20, kNever}};
   const CostMatrix late = costs.late(shut, least);
   // If stop 1, (0, 0), is last, the agent leaves it at time 24 - 5 = 19 or later. It could
@@ -97,7 +99,7 @@ class LateCostsFuzz {
  public:
   explicit LateCostsFuzz(unsigned seed) : random_(seed) {}
 
-  // Returns the number of sequences for which the constraints raise the bound.
+  // Adds up to four constraints and returns how often they raised the bound of a sequence.
   int check(bool with_destination) {
     const Grid grid = random_grid();
     std::vector<Cell> cells;

@@ -133,8 +133,8 @@ TEST(PrimalSearch, FailedAgentIsPlannedBeforeItsBlockingAgents) {
   }
 }
 
-// A failed attempt continues until the same agent fails a second time. After one label each
-// low-level search accepts any path.
+// At the first failure of an agent only its blocking agents are re-planned; at its second failure
+// planning restarts. After one label of exact search a greedy search looks for any path.
 TEST(PrimalSearch, EveryPlanIsValidWithMinimalLabelLimits) {
   Tuning tuning;
   tuning.pp_resume_labels = 0;

@@ -30,7 +30,7 @@ struct Block {
   const Path above{5, 0, 1, 2, 3, 4, 9};
 };
 
-// Tests the distances to all tasks on random tiny grids.
+// Compares the distances to all tasks of random tiny instances with eight times their steps.
 TEST(Traffic, StepsCostEightWithoutTraffic) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const Instance instance = fuzz::random_instance(seed).build();

@@ -42,7 +42,7 @@ class TreeRecords : public ::testing::Test {
     return roots;
   }
 
-  // Expects that the two trees have equal records, bounds, costs, paths and children.
+  // Expects that the two roots have equal tree records, bounds, costs, paths and children.
   void expect_same(const NodePtr& root, const NodePtr& restored) {
     EXPECT_EQ(record_of(restored->tree()), record_of(root->tree()));
     EXPECT_EQ(restored->bound(), root->bound());

@@ -41,8 +41,8 @@ struct AgentState {
   Cell cell;
   std::uint32_t counted;  // bit i: stop i is counted as visited
   int last;               // the stop counted last; -1: none, or there is a destination
-  Cell entered_from;      // in a corridor entered after time 0: the cell before it; else kNoCell
-  Cell entered_at;        // its first inner cell on that entry; else kNoCell
+  Cell entered_from;      // cell from which it entered its corridor after time 0, or kNoCell
+  Cell entered_at;        // inner cell that it entered from there, or kNoCell
   friend auto operator<=>(const AgentState&, const AgentState&) = default;
 };
 
@@ -377,7 +377,7 @@ class Fuzzer {
       case 1:
         all.push_back({cell, kNoCell, t - below(5), end});
         break;
-      case 2:  // barred until late, except for one time step
+      case 2:  // barred for long, sometimes with a short gap
         all.push_back({cell, kNoCell, 1 + below(3), end});
         all.push_back({cell, kNoCell, end + 1 + below(3), end + below(9)});
         break;
@@ -461,8 +461,8 @@ std::vector<std::vector<Cell>> cells_of(const Mdd& graph) {
   return layers;
 }
 
-// Builds an MDD of cost outside_bound(), the bound of the sequence graph on the sequences that it
-// omits, and compares it with an MDD from a sequence graph that was widened beyond that cost.
+// outside_bound() bounds the cost of the sequences that a sequence graph omits. An MDD of exactly
+// this cost must have the same cells in each layer as one from a graph widened beyond that cost.
 TEST(MddLanguage, IsCompleteAtTheBoundOfTheSequenceGraph) {
   int at_the_bound = 0;
   for (unsigned seed = 0; seed < 12; ++seed) {

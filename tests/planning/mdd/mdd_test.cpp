@@ -183,8 +183,8 @@ class Fuzzer {
     return std::make_unique<Agent>(problem);
   }
 
-  // Compares all paths of one random cost, from the agent's least cost to that cost plus two, and
-  // returns them. Returns none if there is no path or the cost is above kMaxCost.
+  // Compares all paths of one cost and returns them. The cost exceeds the agent's least cost by a
+  // random number from 0 to 2. Returns no paths if it is above kMaxCost or no path exists.
   Paths check(Agent& agent) {
     const std::optional<Time> least = free_reference_cost(agent.problem);
     if (!least) {

@@ -91,8 +91,9 @@ class Fuzzer {
     return work;
   }
 
-  // Returns at random one of three equivalent costs to go: those that the search uses, those of a
-  // graph, or those of a graph by direct legs (direct_legs.h) for the class `work`.
+  // Returns one of three costs to go at random: those of `stops`; those of a sequence graph; or,
+  // for the class `work`, those of a sequence graph by direct legs (direct_legs.h). The choice must
+  // not change the results of the searches.
   CostToGo cost_to_go_of(const AgentStops& stops, const SequenceClass& work) {
     const CostToGo& given = stops.cost_to_go();
     switch (below(3)) {
@@ -290,7 +291,7 @@ TEST(WorldLowLevel, AgreesWithTimeExpandedSearch) {
   const int seeds = testing::fuzz_rounds(300);
   std::vector<int> all(static_cast<std::size_t>(seeds));
   std::iota(all.begin(), all.end(), 0);
-  all.push_back(3582);  // regression: a gate postponed labels in time to rest
+  all.push_back(3582);  // regression: a gate postponed labels that could still rest in time
   for (const int seed : all) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Fuzzer fuzzer(static_cast<unsigned>(seed));

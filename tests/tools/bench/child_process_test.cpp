@@ -121,7 +121,7 @@ TEST_F(Children, DieWithTheirParent) {
   ::kill(parent, SIGKILL);
   ::waitpid(parent, nullptr, 0);
   EXPECT_GT(child, 0);
-  // The child holds the other end of the pipe as long as it runs.
+  // The child holds the write end while it runs, so end of file shows that it has ended.
   from_child >> child;
   EXPECT_TRUE(from_child.eof());
 }

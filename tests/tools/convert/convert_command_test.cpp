@@ -157,7 +157,7 @@ TEST_F(ConvertCommand, TasksAreDroppedOnlyOnRequest) {
   EXPECT_EQ(content("o.scen"), kScen);
   converted({"--drop", "tasks", "tasks.cts.json", "o.yaml"});
   EXPECT_EQ(content("o.yaml"), kPlainYaml);
-  // Everything that the format can represent is kept, even if it may be dropped.
+  // Whatever the format can represent is kept in spite of --drop.
   converted({"tasks.cts.json", "o.cts.json", "--drop", "ids,tasks"});
   EXPECT_EQ(content("o.cts.json"), kTasks);
 }

@@ -70,7 +70,7 @@ TEST_F(ExecuteCommand, ExecutionKeepsNoFollowing) {
   EXPECT_EQ(checked.exit_code, 0) << checked.err;
 }
 
-// The planned start is negative, as in plan files.
+// As in plan files, the planned start of a task that began before the plan is negative.
 TEST_F(ExecuteCommand, TaskBegunBeforeThePlanHasNegativePlannedTime) {
   std::ofstream(directory_ / "row.map") << "type octile\nheight 1\nwidth 3\nmap\n...\n";
   const std::string row = directory_ / "row.cts.json";
@@ -91,7 +91,7 @@ TEST_F(ExecuteCommand, StopDelaysAtMostItsDuration) {
   const auto cost = [&](const char* file) { return int(read(file)["agents"][2]["cost"]); };
   EXPECT_GT(cost("late.json"), cost("calm.json"));
   EXPECT_LE(cost("late.json"), cost("calm.json") + 60);
-  // The robot stays somewhere for at least 60 steps, for the stop and its next action.
+  // The stop keeps the robot on one cell for at least 60 steps.
   const json path = read("late.json")["agents"][2]["path"];
   std::size_t longest = 0;
   for (std::size_t t = 1, since = 0; t < path.size(); ++t) {

@@ -118,7 +118,8 @@ TEST_F(ReplanCommand, CommittedStepsAreKept) {
   EXPECT_EQ(read("then.cts.json")["map"], "then.map");
 }
 
-// A cheaper plan already exists but deviates from the committed steps.
+// The output file already holds a plan without committed steps. It may be cheaper but deviate from
+// them, so it must be replaced.
 TEST_F(ReplanCommand, CommittedStepsReplaceACheaperPlan) {
   const json path = read("p.plan.json")["agents"][3]["path"];
   expect_valid({"--at", "20", "--late", "a3=6", "--omega", "0"});

@@ -56,7 +56,7 @@ TEST_F(PlanOutput, ReplacesPlansOfEqualOrHigherCost) {
   EXPECT_EQ(write(waiting(1)), std::nullopt);
   EXPECT_EQ(content(), solution_text(instance_, waiting(1)));
   Solution other = waiting(1);
-  other.lower_bound = 1;  // its own bound, although the file has a higher one
+  other.lower_bound = 1;  // written, although the bound in the file is higher
   EXPECT_EQ(write(other), std::nullopt);
   EXPECT_EQ(content(), solution_text(instance_, other));
 }
@@ -77,7 +77,8 @@ TEST_F(PlanOutput, ReplacesPlansOfAnotherInstance) {
   EXPECT_THAT(content(), HasSubstr("unknown"));
 }
 
-// The checker and the search implement the rules independently, so one of them must be wrong.
+// The checker accepts the plan in the file, but the search claims that no such plan exists. They
+// implement the rules independently, so one of them must be wrong.
 TEST_F(PlanOutput, RefutesAFalseBoundByTheExistingPlan) {
   write(waiting(0));
   EXPECT_THAT(failure(without_plan(Status::kInfeasible, 0)),

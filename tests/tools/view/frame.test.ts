@@ -7,7 +7,7 @@ import { planFacts } from "../../../tools/view/page/facts";
 import { Frame } from "../../../tools/view/page/frame";
 import { kGrid, kRoads, model } from "./models";
 
-// Returns {time: red robots} in half steps, without the times that have none.
+// Returns the red robots by time, in half steps. Times without red robots are omitted.
 function red(...parts: Parameters<typeof model>): Record<number, string> {
   const m = model(...parts);
   const [plan] = m.plans;
