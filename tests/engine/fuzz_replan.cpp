@@ -32,7 +32,7 @@ struct Arguments {
   bool may_follow = true;
 };
 
-// Records the time until the first plan, and its cost.
+// Records the cost of the first plan and the time until it was found.
 class FirstPlan : public RunObserver {
  public:
   void on_incumbent(const Plan& plan, PlanSource, const Progress&) override {

@@ -46,7 +46,7 @@ struct SmallSearch {
   NodePtr root;
 };
 
-// Bounds with values that the test sets; records the posted plans.
+// Bounds whose values the test sets. prove() can raise `bound`; post() only records the plan.
 struct ScriptedBounds : SharedBounds {
   bool over() const override { return is_over; }
   Cost cutoff() const override { return incumbent ? incumbent->cost : kInfiniteCost; }
@@ -70,7 +70,7 @@ struct ScriptedBounds : SharedBounds {
   std::size_t live_when_changed = 0;
 };
 
-// Counts the calls.
+// Counts the calls of instantiate_due_tree(), refill_nodes() and prepare_tree().
 struct CountingSource : TreeSource {
   void instantiate_due_tree() override { ++due; }
   void refill_nodes() override {

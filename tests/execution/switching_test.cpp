@@ -94,8 +94,8 @@ TEST(Switching, RobotThatWaitsForADelayedOneGoesFirst) {
   EXPECT_EQ(switched.trace.finish(order, 0), 55);
 }
 
-// For example, the order of two robots in a corridor must not be switched once one of them is
-// inside.
+// A wrong switch would cause a deadlock, for example if the order of two robots in a corridor were
+// switched once one of them is inside.
 TEST(Switching, CausesNoDeadlock) {
   std::int64_t switches = 0;
   Cost fixed = 0;

@@ -20,8 +20,8 @@ std::string problem_of(const TinyInstance& instance) {
   return mg == std::ssize(instance.agents) ? "MG" : "mixed";
 }
 
-// Returns the name of the kind of world: grid or roads, with turning agents or tasks with a
-// duration.
+// Returns the kind of world: "grid" or "roads", then " + turning" if turns take time, and " + work"
+// if tasks have a duration.
 std::string world_of(const TinyInstance& instance) {
   std::string world = instance.roads.empty() ? "grid" : "roads";
   const auto agent_with = [&](auto what) { return std::ranges::any_of(instance.agents, what); };

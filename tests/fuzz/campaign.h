@@ -20,7 +20,7 @@ struct Tally {
   std::int64_t too_large = 0;   // skipped: too many joint states for the oracle
   std::int64_t infeasible = 0;  // no plan exists
   std::int64_t unstopped = 0;   // a plan exists, and the case has ImposedLimit::kNothing
-  std::int64_t unsolved = 0;    // cases of `unstopped` stopped by the patience or node memory
+  std::int64_t unsolved = 0;    // those of `unstopped` that the patience or node memory ended
   std::map<std::string, std::int64_t> by_status;
   std::map<std::string, std::int64_t> by_omega;
   std::map<std::string, std::int64_t> by_kind;   // MAPF, CTS, MG, mixed

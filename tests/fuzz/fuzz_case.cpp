@@ -128,8 +128,8 @@ std::size_t random_node_memory(Random& random) {
 }
 
 // In a quarter of the cases up to eight tunables are at their minimum or differ from their default
-// by a factor of up to eight, but not so far that the run would exceed the fuzzer's time limit.
-// Independently, some cases start the joint search or the Lagrangian bound at once.
+// by a factor of up to eight. Some cases also start the joint search or the Lagrangian bound at
+// once.
 Tuning random_tuning(Random& random) {
   Tuning tuning;
   // By default tiny instances are solved before the joint search starts.

@@ -82,8 +82,8 @@ class TinyInstances {
     builder.add_task("t", task, std::vector<std::string>{instance.agent(agent).id});
     return std::move(builder).build();
   }
-  // Tests for every agent and place whether the agent can visit the place before all agents are
-  // back on their starts.
+  // For each agent and place, tests the instance in which the agent has a task on the place and all
+  // agents must return to their starts.
   void test_places(const Instance& instance, const Places& starts, const std::set<Places>& all) {
     const World& world = instance.world();
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)

@@ -306,7 +306,7 @@ bool compare_histories = false;
 }
 
 // Returns valid plans of the instance, at most `wanted`, found on its map and on maps with a few
-// more blocked cells. Blocks no cells of a roadmap.
+// more blocked cells. On a roadmap all plans are found on the map itself.
 std::vector<Plan> some_plans(const TinyInstance& tiny, const Instance& instance, Random& random,
                              int wanted, double seconds) {
   std::vector<Plan> plans;

@@ -285,7 +285,8 @@ TEST(GraphmlFile, SurvivesDeepNesting) {
   EXPECT_EQ(parse_graphml(graphml(kA + closed), "g").vertices.size(), 1u);
 }
 
-// Each text is truncated or gets a flipped bit; the reader must either read or refuse it.
+// Truncates each text at every byte, and flips one bit of every byte. Each result must be either
+// read or refused.
 TEST(GraphmlFile, DamagedTextsAreReadOrRefused) {
   for (const std::string& text : {kNetworkx, kYed})
     for (std::size_t k = 0; k < text.size(); ++k) {

@@ -93,8 +93,8 @@ int cases() {
   return testing::fuzz_rounds(1000);
 }
 
-// Reads every mutation of `text`; an instance that is read must survive `write` and `read`. Returns
-// the number of mutations that were read.
+// Reads mutations of `text`. An instance that is read must survive `write` and `read`, unless
+// `write` cannot represent it. Returns the number of mutations that were read.
 template <typename Read, typename Write>
 int survivors(const std::string& text, Read read, Write write) {
   const TemporaryDirectory directory;

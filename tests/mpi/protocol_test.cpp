@@ -51,8 +51,8 @@ struct IsolatedRank : Setting {
   Rank rank{problem, options, limits, transport, stops};
   double now = 0;
 
-  // Returns the last status that the rank sends in response to this message; empty if it sends
-  // none.
+  // Passes the message to the rank. Returns the last status that the rank has sent to rank 0, or a
+  // default status if it has sent none.
   message::Status status_after(int from, message::Message message) {
     rank.handle(from, std::move(message));
     rank.send_updates(now += 10);
@@ -303,7 +303,8 @@ struct SubCoordinatorOfThree {
   SubCoordinator sub{transport, Hierarchy(9, 3), 1, Tuning()};
   double now = 0;
 
-  // Returns the last status sent to the parent in response to this message; empty if none was sent.
+  // Passes the message to the sub-coordinator. Returns the last status that it has sent to its
+  // parent, or a default status if it has sent none.
   message::Status status_after(int from, message::Message message) {
     sub.handle(from, std::move(message));
     sub.send_updates(now += 10);

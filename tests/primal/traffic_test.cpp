@@ -11,7 +11,8 @@ namespace traffic_test {
 
 using testing::instance_of;
 
-// Two paths of equal length around a block, from cell 5 to cell 9, and distance fields to any cell.
+// A map with two routes of equal length from cell 5 to cell 9, above and below a wall, and the
+// traffic on it.
 struct Block {
   Block() { traffic.update_edge_costs(); }
   DistanceField field(Place to) {

@@ -167,7 +167,7 @@ TEST_F(Certificates, AreNotMadeFromInvalidRecordFiles) {
   EXPECT_FALSE(fs::exists(file_));
 }
 
-// Records that a killed process did not write completely are missing; the complete ones are used.
+// A record that a killed process wrote only in part is ignored; complete records are used.
 TEST_F(Certificates, OfTruncatedRecordsUseTheCompleteOnes) {
   recorder_.tree(tree_);
   recorder_.flush();

@@ -69,9 +69,8 @@ TEST(CoveringBound, IsZeroWithoutStatements) {
   EXPECT_EQ(covering_bound({}), 0);
 }
 
-// Excesses near infinity, of pairs that have no collision-free paths, found before any plan gives a
-// finite limit. The recursion must not be as deep as these numbers, and sums of them must not
-// overflow.
+// Before any plan gives a finite limit, pairs without collision-free paths have excesses near
+// infinity. The recursion must not be as deep as these numbers, and their sums must not overflow.
 TEST(CoveringBound, HandlesStatementsOfInfiniteCost) {
   std::vector<GroupExcess> statements;
   for (AgentIndex a = 0; a < 20; a += 2) {

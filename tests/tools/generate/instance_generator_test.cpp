@@ -73,7 +73,7 @@ TEST(GenerateInstance, WithMgTurnsGoalsIntoTasks) {
     EXPECT_NE(std::ranges::find(cells, *with_goals.agent(i).goal), cells.end());
     for (const Task& task : with_goals.tasks()) joined += task.cell == *with_goals.agent(i).goal;
   }
-  EXPECT_GT(joined, 0);  // one task fewer for each goal on a task
+  EXPECT_GT(joined, 0);  // a goal on the cell of a task adds no task
   EXPECT_EQ(mg.task_count(), 80 + 20 - joined);
 }
 

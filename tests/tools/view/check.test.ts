@@ -141,8 +141,8 @@ test("a long path with many tasks does not block the page", (context) => {
   const tasks = Array.from({ length: 64 }, (_, k) => ({ id: `t${k}`, place: k % 4, agents: [0] }));
   const m = model(kGrid, [kOne], tasks, [{ path: `@0;${"EW".repeat(200_000)}3E` }]);
   const checker = new Checker(m, m.plans[0]);
-  // With a clock on which each part takes a millisecond, the check pauses in time and needs many
-  // parts.
+  // Each reading of the clock advances it by a millisecond, and the check reads it once per part.
+  // Each call of step(5) must therefore end after a few parts.
   let time = 0;
   context.mock.method(performance, "now", () => time++);
   let steps = 1;
