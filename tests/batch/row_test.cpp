@@ -189,7 +189,7 @@ TEST(Rows, RefuseInvalidLines) {
   bad.push_back(odd.dump());
   odd["status"] = "error";  // without an error text
   bad.push_back(odd.dump());
-  odd["error"] = "broken";  // with an error text, although solved
+  odd["error"] = "broken";  // with an error text, but still with results
   bad.push_back(odd.dump());
   for (const std::string& line : bad)
     EXPECT_THROW(parse_json_line(line), std::invalid_argument) << line;

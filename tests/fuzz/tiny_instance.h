@@ -31,7 +31,7 @@ namespace grove::detail::fuzz {
 //     to E 1         (it has made one step of the turn to the east)
 //     end S          (it must face south at the end)
 //     work 0 2       (it has done 2 steps of task 0)
-//     road 1 2       (it starts 2 steps along road 1 instead)
+//     road 1 2       (it starts on road 1 after 2 of its steps, not on the cell)
 //
 // A line "no following" forbids agents to enter a place in the step in which another agent leaves
 // it.

@@ -22,8 +22,8 @@ inline constexpr Variant kVariants[] = {Variant::kCts, Variant::kMg};
 Instance random_instance(int n, Variant variant, Random& random);
 CostMatrix grid_matrix(int n, Variant variant, Random& random);
 
-// A random metric: symmetric, satisfies the triangle inequality, without a common parity; not
-// derived from a grid.
+// A random metric (symmetric, with the triangle inequality) that is not derived from a grid, so its
+// distances have no common parity. For kMg the costs to the end are 0.
 CostMatrix metric_matrix(int n, Variant variant, Random& random);
 
 // Arbitrary costs: asymmetric, with some infeasible legs.

@@ -29,7 +29,7 @@ struct ProcessOptions {
 };
 
 // Runs `command` (program and arguments, without a shell) and waits for it. Throws
-// std::runtime_error if it cannot be started or exits with 127.
+// std::runtime_error if the program cannot be started or exits with 127.
 ProcessResult run_program(const std::vector<std::string>& command,
                           const ProcessOptions& options = {});
 

@@ -26,7 +26,7 @@ class ScarceFrontier : public ::testing::Test {
   }
 
   // Applies `change` to frontiers with one open and one taken node, failing a different allocation
-  // each time until no allocation fails. After each failure `holds` must be true. Returns the
+  // each time until `change` succeeds. After each failure `holds` must be true. Returns the
   // number of failures.
   template <class NodeDelta, class Holds>
   int fail_everywhere(NodeDelta change, Holds holds) {

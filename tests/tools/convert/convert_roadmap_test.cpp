@@ -150,7 +150,7 @@ TEST_F(ConvertRoadmap, RobotsCannotPassEachOtherOnOneLane) {
   Arguments convert = {"p.lif.json", "o.roadmap.json", "--metres-per-step", "2"};
   EXPECT_EQ(run(convert).exit_code, 0);
   EXPECT_EQ(solved(), "valid: cost 6, lower bound 6, gap 0.00 %, 2 agents\n");
-  // Each robot moves aside for the other. An exhaustive search finds the same cost.
+  // On one lane each robot moves aside for the other. An exhaustive search finds the same cost.
   convert.emplace_back("--merge-lanes");
   EXPECT_EQ(run(convert).exit_code, 0);
   EXPECT_EQ(solved(), "valid: cost 12, lower bound 12, gap 0.00 %, 2 agents\n");

@@ -112,7 +112,7 @@ TEST_F(ViewCommand, WritesPictures) {
        directory_ / "s.png", "--gif", directory_ / "s.gif", "--at", "0,8,20.5", "--width", "300"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(read("s.svg"), HasSubstr("<svg"));
-  EXPECT_THAT(read("s.svg"), HasSubstr("width=\"924px\""));  // three times, two gaps
+  EXPECT_THAT(read("s.svg"), HasSubstr("width=\"924px\""));  // three pictures and two gaps
   EXPECT_THAT(read("s.png"), StartsWith("\x89PNG"));
   EXPECT_THAT(read("s.gif"), StartsWith("GIF89a"));
   EXPECT_EQ(read("s.gif").back(), ';');
@@ -131,10 +131,10 @@ TEST_F(ViewCommand, PicturesHaveCaptionAndLegend) {
     return std::stoi(svg.substr(at));
   };
   const std::string plan = plan_of("shop");
-  EXPECT_EQ(height_with({"--width", "360"}), 200);             // 9 x 5 cells
-  EXPECT_EQ(height_with({"--width", "720"}), 400 + 26);        // a legend
-  EXPECT_EQ(height_with({plan, "--width", "360"}), 200 + 20);  // a caption
-  EXPECT_EQ(height_with({plan, "--width", "720"}), 400 + 46);  // both
+  EXPECT_EQ(height_with({"--width", "360"}), 200);             // a map of 9 x 5 cells
+  EXPECT_EQ(height_with({"--width", "720"}), 400 + 26);        // with a legend
+  EXPECT_EQ(height_with({plan, "--width", "360"}), 200 + 20);  // with a caption
+  EXPECT_EQ(height_with({plan, "--width", "720"}), 400 + 46);  // with a caption and a legend
   EXPECT_EQ(height_with({plan, "--width", "360", "--at", "0,1,2,3,4"}), 2 * 220 + 12 + 26);
 }
 
