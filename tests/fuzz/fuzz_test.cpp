@@ -184,8 +184,8 @@ TEST(Fuzzer, CountsRunsThatReachTheTimeLimit) {
 }
 
 TEST(Shrink, FindsMinimalCaseOfFalseClaim) {
-  // This solver is wrong if an MG agent has a task on another agent's destination (and a second
-  // task, on which it can finish).
+  // This solver claims a false bound if an MG agent has a task on another agent's destination. A
+  // plan exists only if the MG agent has a second task, on which it can finish.
   const Solver solver = false_solver([](const Instance& instance, Solution& s) {
     for (const Task& task : instance.tasks())
       for (const Agent& agent : instance.agents())

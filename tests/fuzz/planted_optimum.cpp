@@ -20,8 +20,8 @@ bool may_be_next(const SequenceClass& sequences, const Sequence& so_far, Stop st
   return so_far.size() > fixed || (sequences.forbidden_next >> stop & 1) == 0;
 }
 
-// Tests whether a path realizes any sequence of a class. Each stop counts at its first visit at
-// or after the visit of the previous stop.
+// Tests whether a path realizes any sequence of a class. Each stop counts at its first visit at or
+// after the visit of the previous stop.
 class RealizedSequences {
  public:
   RealizedSequences(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,

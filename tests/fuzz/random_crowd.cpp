@@ -333,7 +333,7 @@ class CrowdMaker {
   //   free place. Two reachable configurations with the same free place differ by an even number of
   //   steps, hence by an even permutation; swapped goals would be an odd one. Triangles without a
   //   free place also allow only even permutations.
-  // - No agent can leave or enter a full room.
+  // - With two rooms and no free place, no agent can leave its room.
   std::optional<Pair> pair_to_swap(const std::vector<Place>& starts) {
     const auto agents = static_cast<int>(starts.size());
     const Pair any{0, random_.between(1, agents - 1)};

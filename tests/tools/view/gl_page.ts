@@ -49,7 +49,8 @@ function pixels(): Record<string, string> {
   return seen;
 }
 
-// Returns the time per frame in milliseconds with `count` robots, spent in the page's own code.
+// Returns the median time that the page's own code takes for a frame with `count` robots, in
+// milliseconds; NaN without WebGL.
 function milliseconds(count: number): number {
   const side = Math.ceil(Math.sqrt(2 * count));
   const agents = Array.from({ length: count }, (_, i) => ({ id: `a${i}`, start: 2 * i }));

@@ -16,7 +16,7 @@ function dice(seed: number): (bound: number) => number {
   };
 }
 
-// Returns a random path as text, and the places that it describes at each step.
+// Returns a random path as text, and its place at each step.
 function randomPath(seed: number): { text: string; places: number[] } {
   const roll = dice(seed);
   const places = [5050];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads file names of grove view pages from standard input, one per line. For each page it writes
-// one line of JSON: the violations that the page finds in its first plan, or why it
+// Reads file names of grove view pages from standard input, one per line. For each page it
+// writes one line of JSON: the violations that the page finds in its first plan, or an error if it
 // cannot show the plan.
 
 import { readFileSync } from "node:fs";

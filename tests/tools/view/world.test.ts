@@ -11,7 +11,7 @@ const world = (data: object): World => readWorld(parse(JSON.stringify(data)));
 const roads = (vertices: [string, number, number][], list: number[][]) =>
   world({ kind: "roadmap", vertices, roads: list });
 
-// Returns all moves from each place.
+// Returns all possible moves as texts such as "0>1", in order of places.
 function moves(w: World): string[] {
   const all: string[] = [];
   for (let from = 0; from < w.places; ++from)
