@@ -226,9 +226,8 @@ class ManyStops {
   }
 
   // Adds constraints one at a time. Before each addition, FixedOrderSipp must find a path of the
-  // same cost for the sequence that the path found realizes. It must find no cheaper path for the
-  // other sequences of which the cost without constraints is lower; at most kMaxSequences are
-  // tested.
+  // same cost for the sequence that the path found realizes. It must find no cheaper path for any
+  // sequence whose cost without constraints is lower; at most kMaxSequences of them are tested.
   void check() {
     Agent agent(problem_);
     for (int n = 0; n < 8; ++n) {
