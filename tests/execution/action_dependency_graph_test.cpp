@@ -58,7 +58,8 @@ TEST(ActionDependencyGraph, FollowerDependsOnTheMoveOfItsLeader) {
 }
 
 // Agent 1 enters places that agent 0 has left. The dependency for a place is omitted if agent 1 has
-// already entered another place that agent 0 left later, because that dependency implies it.
+// already entered another place that agent 0 left later, because the dependency for
+// that place implies it.
 TEST(ActionDependencyGraph, OmitsTransitiveDependencies) {
   const Instance instance = instance_of(
       {"....", "...."}, {AgentSpec{{0, 0}, Position{3, 1}}, AgentSpec{{0, 1}, Position{3, 0}}});
@@ -67,7 +68,7 @@ TEST(ActionDependencyGraph, OmitsTransitiveDependencies) {
       plan_of(instance,
               {{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}},
                {{0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {1, 1}, {2, 1}, {2, 0}, {3, 0}}}));
-  EXPECT_EQ(order.dependency_count(), 2);  // for (2, 0) and, left later, (3, 0)
+  EXPECT_EQ(order.dependency_count(), 2);  // for (2, 0), and for (3, 0), which is left later
   const Instance back = instance_of(
       {"....", "...."}, {AgentSpec{{0, 0}, Position{3, 1}}, AgentSpec{{0, 1}, Position{0, 0}}});
   const ActionDependencyGraph backwards(

@@ -88,7 +88,7 @@ TEST(ResidentBytes, CountOnlyAPartOfSharedMemory) {
   const std::size_t whole = resident_bytes();
   set_shared_memory_accounting(4, kSize);
   const std::size_t part = resident_bytes();
-  set_shared_memory_accounting(4, 4 * kSize);  // three quarters touched by others
+  set_shared_memory_accounting(4, 4 * kSize);  // only a quarter touched here
   const std::size_t part_of_more = resident_bytes();
   set_shared_memory_accounting(1, 0);
   EXPECT_GT(whole, kSize);

@@ -255,7 +255,7 @@ TEST(IsolatedCoordinator, EndsWithoutUnresponsiveRanksAfterALimit) {
   const auto wait = [&] { clock.advance(milliseconds(701)); };
   wait();
   EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0);
-  coordinator.handle(1, message::SnapshotTaken{});  // is used, because no limit is reached yet
+  coordinator.handle(1, message::SnapshotTaken{});  // rank 1 takes part: no limit yet
   s.limits.stop(StopReason::kTime);
   EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0) << "a message of rank 1 has just arrived";
   clock.advance(milliseconds(699));

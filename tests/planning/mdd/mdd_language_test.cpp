@@ -461,8 +461,8 @@ std::vector<std::vector<Cell>> cells_of(const Mdd& graph) {
   return layers;
 }
 
-// outside_bound() bounds the cost of the sequences that a sequence graph omits. An MDD of exactly
-// this cost must have the same cells in each layer as one from a graph widened beyond that cost.
+// outside_bound() is a lower bound on the cost of the sequences that a sequence graph omits. An MDD
+// of exactly this cost must have the same cells in each layer as an MDD from a wider graph.
 TEST(MddLanguage, IsCompleteAtTheBoundOfTheSequenceGraph) {
   int at_the_bound = 0;
   for (unsigned seed = 0; seed < 12; ++seed) {

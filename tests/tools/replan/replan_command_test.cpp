@@ -118,8 +118,8 @@ TEST_F(ReplanCommand, CommittedStepsAreKept) {
   EXPECT_EQ(read("then.cts.json")["map"], "then.map");
 }
 
-// The output file already holds a plan without committed steps. It may be cheaper but deviate from
-// them, so it must be replaced.
+// The output file holds an earlier plan, made without --commit. It must be replaced even if it is
+// cheaper, because it can deviate from the committed steps.
 TEST_F(ReplanCommand, CommittedStepsReplaceACheaperPlan) {
   const json path = read("p.plan.json")["agents"][3]["path"];
   expect_valid({"--at", "20", "--late", "a3=6", "--omega", "0"});
