@@ -26,7 +26,8 @@ class ExecutionLog:
         self.stream.flush()
 
     def write(self, seconds, robot, at, angle, action, state):
-        """Writes a line if the action or state changed, or if LEAST_SECONDS have passed and the sample changed.
+        """Writes a line if anything changed since the robot's last line. If its action and state are unchanged, also
+        requires that LEAST_SECONDS have passed.
 
         at: (x, y) in cells with y down, or in metres on a roadmap. angle: degrees clockwise from north, or None.
         """

@@ -2,7 +2,7 @@
 """Computes quality over time: plan costs and lower bounds that runs have reached by a given time.
 
 Only the last plan of a run was checked. Earlier plans are taken as the run reports them, except that reported plans
-cheaper than the last one are ignored. A run that reports no earlier plan gets its plan when it ends. Runs that differ
+cheaper than the last one are ignored. A run that reports no earlier plan has its plan from its end on. Runs that differ
 only in the seed share the weight of their instance.
 """
 import itertools

@@ -27,13 +27,13 @@ class Style(NamedTuple):
 
 
 def style_of(index, is_baseline):
-    """Returns the Style of the line with number `index`, from 0, among all lines."""
+    """Returns the Style of the line with this index among all lines."""
     return Style(COLOURS[index % len(COLOURS)], MARKERS[index % len(MARKERS)],
                  DASHES[index % len(DASHES)] if is_baseline else None)
 
 
 def depth(rank, count):
-    """Returns the depth of line number `rank` of `count` lines in drawing order, from 0 (drawn last) to at most 1."""
+    """Returns the depth of a line, from 0 (drawn last) to at most 1. `rank`: its index in drawing order, of `count`."""
     return (count - 1 - rank) / max(count - 1, 4)
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Paints robots by WebGL, with one instance of a quad per robot. The shader computes shapes and colours. Each
+// Paints robots with WebGL, with one instance of a quad per robot. The shader computes shapes and colours. Each
 // frame sends four numbers per robot to the graphics card.
 
 import { shapes } from "../palette.json";

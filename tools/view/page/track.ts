@@ -160,7 +160,7 @@ function* stepsOf(text: string, letters: string): Generator<Step> {
   if (count !== 0) throw new Error("a path ends with a number");
 }
 
-// Return, for each letter of a path, the number that a step adds to the place.
+// Each function returns, for each letter of a path, the number that a step adds to the place.
 export function stepsOnGrid(columns: number): Map<string, number> {
   return new Map([["E", 1], ["W", -1], ["S", columns], ["N", -columns], [".", 0]]);
 }
