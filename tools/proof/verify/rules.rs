@@ -211,8 +211,8 @@ impl Rules {
 
     pub fn arrived(&self, place: Place, time: u32) -> Flags { if time < self.rest_from(place) { EARLY } else { 0 } }
 
-    /// Returns the flags, without EARLY, after a step between two places. If the step completes a traversal of a chain that a Pass constraint
-    /// names, also returns the index of the chain and the side on which the step leaves it.
+    /// Returns the flags, without EARLY, after a step between two places. If the step completes a traversal of a chain that a Pass
+    /// constraint names, also returns the index of the chain and the side on which the step leaves it.
     pub fn passing(&self, chains: &Chains, flags: Flags, from: Place, to: Place) -> (Flags, Option<(u32, u8)>) {
         let known = |place: Place| Some(chains.of[place as usize]).filter(|&chain| self.passes.iter().any(|pass| pass.0 == chain));
         if self.passes.is_empty() { return (0, None); }

@@ -173,8 +173,8 @@ def _set_x(ax, x_values, name):
 
 
 def plot_metric(ax, configurations, x_of, lines, metric, looks, offsets):
-    """Plots one panel. `configurations`: {configuration: {line: Measures}}; a line has a gap at a configuration
-    without Measures for it."""
+    """Plots one panel. `configurations`: {configuration: {line: Measures}}; a line is interrupted at a
+    configuration without its Measures."""
     drawn = False
     for rank, line in enumerate(lines):
         points = [(x_of(configuration) + offsets[line], metric.value(found[line]) if line in found else None)

@@ -2,9 +2,10 @@
 """Assigns colour, marker and dashes to each line, the same in every figure."""
 from typing import NamedTuple
 
-# The palette of Okabe and Ito, which colour-blind readers can distinguish, without its yellow, which is hard to see on
-# white; then a brown; from the ninth on, darker and greyer colours. The numbers of colours and markers have no common
-# divisor, so that up to 132 lines have distinct pairs of colour and marker.
+# The first seven colours are the palette of Okabe and Ito, which colour-blind readers can distinguish. Its yellow is
+# omitted, because it is hard to see on white. Then a brown and, from the ninth on, darker and greyer colours. The
+# numbers of colours and markers have no common divisor, so that up to 132 lines have distinct pairs of colour and
+# marker.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9", "#8C510A",
            "#7B3294", "#7F7F7F", "#A50026", "#66A61E")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", "*", ">", "p")

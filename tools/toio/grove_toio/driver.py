@@ -265,7 +265,7 @@ class Driver:
     # ---- Failures
 
     def is_drivable(self, handle):
-        """Returns whether the cube can be driven. Reports each new cause if it cannot, and reports when it can again."""
+        """Returns whether the cube can be driven. Reports each new cause if it cannot, and when it can again."""
         if handle.trouble:
             return self.report_undrivable(handle, "lost", handle.trouble)
         if handle.missing:

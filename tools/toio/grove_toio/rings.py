@@ -47,7 +47,7 @@ def wide_paths(cells):
 
 
 def least_gap(paths):
-    """Returns the least distance, in cells, between two robots on these paths that are anywhere in the same part."""
+    """Returns the least distance, in cells, that two robots on these paths can have while both are in the same part."""
     return min(segment_to_segment(*one[part:part + 2], *other[part:part + 2])
                for i, one in enumerate(paths) for other in paths[:i] for part in range(PARTS))
 

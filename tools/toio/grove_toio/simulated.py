@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Simulates a cube, which exchanges the bytes of a real cube, drives on two wheels, slips, and loses messages.
+"""Simulates a cube, which exchanges the same bytes as a real cube, drives on two wheels, slips, and loses messages.
 
 The simulation follows the specification. Where the specification leaves the behaviour open, it assumes the worst case:
 every journey ends up to 15 units before its target.

@@ -46,8 +46,8 @@ class Vehicle:
 class Control:
     """Controls all vehicles of an order.
 
-    send(vehicle, content) publishes an order. log(seconds, vehicle, ...) writes a line of the log; `seconds` are vehicle
-    seconds.
+    send(vehicle, content) publishes an order. log(seconds, vehicle, ...) writes a line of the log;
+    `seconds` are vehicle seconds.
     """
 
     def __init__(self, releases, style, order_id, limits, send, clock, log=None, say=lambda text: None):

@@ -6,9 +6,8 @@ actions there without further conditions. That is the case when every action for
 action on the node, waits has been reported as completed. Then, by the passing order, no other vehicle is on that place
 or drives there, and none may be sent there before this vehicle has left it, because the other vehicles wait for that.
 (Waits that the order omits follow from waits of earlier actions of the same robot, whose predecessors are completed,
-too.) Consequently the
-nodes released to different vehicles, each counted from the last node that the vehicle reported as reached, never have
-a place in common. `grove vda5050 watch` checks this without using the order.
+too.) Consequently, if each vehicle holds its released nodes from the last node that it reported as reached on, no two
+vehicles hold nodes with the same place. `grove vda5050 watch` checks this without using the order.
 """
 
 

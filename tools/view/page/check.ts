@@ -393,7 +393,7 @@ class AgentCheck {
   }
 }
 
-// Returns the first time after `begin` at which the value of the track differs from that one step earlier;
+// Returns the first time after `begin` at which the value of the track differs from the value one step before;
 // Infinity: never.
 function nextChange(track: Track | TurnTrack, begin: number): number {
   for (let run = track.run(begin); run < track.runs; ++run)

@@ -75,7 +75,7 @@ export class Track {
   }
 }
 
-// The angles over time of an agent for which turning takes time, as runs like those of Track.
+// The angle, over time, of an agent that needs time to turn. Stored as runs, as in Track.
 export class TurnTrack {
   constructor(
     readonly times: Int32Array,
