@@ -44,7 +44,7 @@ pub struct Verifier {
     trail: Vec<u32>,
     /// The constraints in force on each agent.
     constraints: Vec<Vec<Constraint>>,
-    /// For each constraint in force, how many times it is in force.
+    /// For each constraint in force, how often it occurs among the constraints in force.
     present: HashMap<Constraint, u32>,
     /// For each agent its known costs, with ascending numbers of constraints.
     known: Vec<Vec<Known>>,

@@ -40,7 +40,7 @@ class Panel(NamedTuple):
     """The Curves for one map, or for one number of agents if there is only one map."""
     title: str
     instances: int
-    common: int    # number of common_with_plans()
+    common: int    # number of instances that common_with_plans() returns
     curves: dict   # {line: Curve}
 
 

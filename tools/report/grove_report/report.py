@@ -268,9 +268,9 @@ def _write_tables(output, problem, lines):
 
 
 def _shown_configuration(configurations, wanted_map, wanted_agents):
-    """Returns map and N for the figure of a study: the wanted ones.
+    """Returns map and N for the figure of a study.
 
-    By default the map is the first room map, or else the first map, and N is 5, or else the smallest number.
+    They are the wanted ones or, by default, the first room map (or else the first map) and N = 5 (or else the least N).
     """
     maps = sorted({configuration.map for configuration in configurations})
     name = wanted_map or next((name for name in maps if name.startswith("room")), maps[0])

@@ -34,7 +34,10 @@ def style_of(index, is_baseline):
 
 
 def depth(rank, count):
-    """Returns the depth of a line, from 0 (drawn last) to at most 1. `rank`: its index in drawing order, of `count`."""
+    """Returns the depth of a line, from 0 (drawn last) to at most 1.
+
+    rank: index of the line among the `count` lines in drawing order.
+    """
     return (count - 1 - rank) / max(count - 1, 4)
 
 

@@ -300,7 +300,7 @@ class Driver:
             self.say(f"{self.now():7.1f} s  {handle.name} {text}")
 
     def waits_of(self, handle):
-        """Describes the fault of the robot's cube, what the robot waits for, or what it does.
+        """Describes the fault of the cube, what the robot waits for, or what it does.
 
         Returns None if it has completed all its actions and no fault or blocked lane is reported.
         """

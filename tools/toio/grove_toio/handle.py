@@ -123,7 +123,7 @@ class Handle:
         return point_to_segment(self.position, a, b) <= tolerance
 
     def lane(self):
-        """Returns the path that the cube may still cover, from its position on."""
+        """Returns the path on which the cube may be from now on, as far as it is known."""
         if not self.seen_now:
             return [self.place, self.goal]
         if self.command is None or self.command.kind == "stop":
