@@ -26,7 +26,8 @@ class ExecutionLog:
         self.stream.flush()
 
     def write(self, seconds, robot, at, angle, action, state):
-        """Writes a line if the action or state changed, or if LEAST_SECONDS have passed and the sample changed.
+        """Writes a line if the robot's action or state changed since its last line. Also writes one if only its
+        position or angle changed, but not within LEAST_SECONDS after its last line.
 
         at: (x, y) in cells with y down, or in metres on a roadmap. angle: degrees clockwise from north, or None.
         """

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""Transforms metres to cells; the transformation is derived from a passing order."""
+"""Converts positions in metres to cells, by a transformation that it derives from a passing order."""
 from .order import is_cell
 
 
 class Frame:
     def __init__(self, order):
-        """Derives the transformation from the first robot and the first move. On a roadmap it is the identity."""
+        """Derives the transformation from the first robot's start and the first move of any robot.
+
+        On a roadmap the transformation is the identity.
+        """
         robot = order.robots[0]
         self.cell, self.x, self.y = 1.0, 0.0, 0.0
         self.is_grid = is_cell(robot.start)

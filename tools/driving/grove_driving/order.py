@@ -174,8 +174,10 @@ def _check_after(reader, robots):
 
 
 def _follow_each_other(robots, members):
-    """Returns the members of a ring so that each enters the place that the next one leaves. Returns None if they form
-    no ring."""
+    """Returns the members of a ring, sorted so that each enters the place that the next one leaves.
+
+    Returns None if they do not form a single ring of at least three members.
+    """
     leaves = {robots[i].place_before(k): (i, k) for i, k in members}
     chain = [members[0]]
     while len(chain) <= len(members):
@@ -206,7 +208,7 @@ def _rings(reader, robots):
 
 
 def _completable(order):
-    """Returns {robot: number of actions that the order lets it complete} when no further action can start."""
+    """Simulates actions until no further action can start. Returns {robot: number of its completed actions}."""
     done = {r.name: 0 for r in order.robots}
 
     def may(robot, k):

@@ -16,7 +16,7 @@ def print_error(message):
 
 
 def exit_code(run, arguments):
-    """Calls run(arguments) and returns the exit code, also if it raises an exception."""
+    """Calls run(arguments) and returns its exit code. Converts expected exceptions to exit codes and error messages."""
     try:
         return run(arguments)
     except BadInput as error:

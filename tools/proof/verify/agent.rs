@@ -118,8 +118,8 @@ struct Done {
     rest: Vec<(u32, u32)>,
 }
 
-/// A restriction of the order of stops (`allowed[k]`: the stops that may be at position k), with the remaining costs of paths that cost at
-/// most `limit`.
+/// A restriction of the order of stops, with the remaining costs of paths that cost at most `limit`. `allowed[k]` is the set of stops that
+/// may be at position k of the order.
 struct Choice {
     allowed: Vec<u64>,
     after: After,
@@ -144,7 +144,7 @@ pub struct AgentModel {
     pub stops: Vec<Stop>,
     /// For each place, the set of stops there as bits. Empty if the agent has no tasks.
     stops_at: Vec<u64>,
-    /// True if the agent must rest on the place of its last stop, because it has no goal and no stop takes time.
+    /// True if the agent has no goal and no stop takes time. If it has stops, it must then rest on the place of its last stop.
     pub rests_on_last: bool,
     /// The goal, if the agent need not turn there or execute a task there.
     pub plain_goal: Option<Place>,
@@ -214,7 +214,7 @@ impl AgentModel {
         (0..self.stops.len()).filter(|&j| stops >> j & 1 == 1 && self.stops[j].duration == 0).fold(0, |all, j| all | 1 << j)
     }
 
-    /// Sets the current restriction of the order of stops. `allowed[k]` is the set of stops that may be at position k.
+    /// Sets the current restriction of the order of stops. `allowed[k]` is the set of stops that may be at position k of the order.
     pub fn choose(&mut self, allowed: &[u64]) {
         match self.choices.iter().position(|choice| choice.allowed == allowed) {
             Some(known) => self.now = known,

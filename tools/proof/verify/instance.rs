@@ -123,7 +123,7 @@ impl Road {
     }
 }
 
-/// Returns, for each id, the position of its object in the list `key`. Refuses missing and repeated ids.
+/// Returns, for each id, the index of its object in the list `key`. Refuses missing, empty and repeated ids.
 fn ids(json: &Json, key: &str) -> Result<HashMap<String, u32>, String> {
     let mut ids = HashMap::new();
     for (number, value) in require(json.get(key).and_then(Json::list), key, "a list")?.iter().enumerate() {
@@ -180,8 +180,8 @@ impl Names {
         self.vertices.get(id.text()?).copied()
     }
 
-    /// Parses a vertex, or a place within a road: ["A", "B", steps], with the number of the road as fourth element if several roads join
-    /// A and B.
+    /// Parses a vertex, or a place within a road: ["A", "B", steps]. A fourth element, the index of the road, is required if several
+    /// roads join A and B.
     fn place(&self, value: &Json) -> Option<Place> {
         let (parts, number) = match value.list() {
             Some(parts @ [_, _, _]) => (parts, None),

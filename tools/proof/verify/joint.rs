@@ -6,7 +6,7 @@ use crate::instance::Place;
 use crate::successors::{State, Successors};
 use crate::tokens::{Map, Set};
 
-/// A possible state of an agent at a time.
+/// A possible state of an agent at one time step.
 struct Point {
     place: Place,
     /// Indices of the points at the next time that may follow.
@@ -81,7 +81,7 @@ pub struct Joint {
     pub following: bool,
 }
 
-/// A joint state at a time.
+/// A joint state at one time step.
 struct Node<'a> {
     /// For each agent the index of its point, or RESTS + place.
     key: &'a [u32],

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-//! Orders of stops: the least remaining cost for each set of stops done and last stop. With many stops, computed only for orders that cost
-//! little more than the best one.
+//! Orders of stops: for each set of stops done and the post of the last of them, the least remaining cost. With many stops, computes these
+//! costs only for orders that cost little more than the best one.
 use crate::agent::NEVER;
 use crate::tokens::Map;
 
-/// Time steps by which the first limit exceeds Bound::root, at least. The limit is raised until it exceeds the cost of the best order by as
-/// much.
+/// The first limit exceeds Bound::root by at least this number of time steps. The limit is then raised until it excludes no order, or
+/// exceeds the cost of the best order by at least this number of time steps.
 const SLACK: u32 = 2;
 
 /// Maximum number of cached trees. A larger cache is emptied.
@@ -32,7 +32,7 @@ pub type After = Map<(u64, u32), u32>;
 
 impl Orders<'_> {
     /// Returns (1) the remaining costs for all sets and posts on paths that cost up to a limit, (2) this limit, which is at least `wanted`
-    /// (NEVER: all paths), and (3) the least cost of a path, or 0 if `wanted` is NEVER.
+    /// (NEVER: all paths), and (3) the least cost of a path (NEVER: there is no path), or 0 if `wanted` is NEVER.
     pub fn after(&self, bound: &mut Option<Bound>, wanted: u32) -> (After, u32, u32) {
         if wanted == NEVER { return (self.within(NEVER, None).0, NEVER, 0); }
         let bound = bound.get_or_insert_with(|| Bound::of(self));

@@ -13,18 +13,18 @@ pub const UNIT: u64 = 1024;
 
 #[derive(Default)]
 pub struct Prices {
-    /// Price of being on a place at a time.
+    /// Price of being on a place at a given time.
     at: Map<(Place, u32), u64>,
-    /// Price of being on a place at a time and at the time step before.
+    /// Price of being on a place at a given time and at the time step before.
     stay: Map<(Place, u32), u64>,
-    /// Price of a move between two places in either direction that arrives at a time. The place with the lower number comes first.
+    /// Price of a move between two places, in either direction, that arrives at a given time. The place with the lower index comes first.
     go: Map<(Place, Place, u32), u64>,
     /// For each agent, pairs of a time and a price. The agent pays the price if its cost is at most the time.
     finish: Map<u32, Vec<(u32, u64)>>,
     /// Sum of the prices of all rows.
     pub sum: u64,
-    /// For each place, pairs of a time and a price, in ascending order of time. After close(), the price is the sum of the prices for an
-    /// agent that rests there from that time on.
+    /// For each place, pairs of a time and a price. After close(), the pairs are in ascending order of time, and each price is the sum of
+    /// all prices that an agent pays if it rests there from the time of the pair on.
     rests: Map<Place, Vec<(u32, u64)>>,
 }
 

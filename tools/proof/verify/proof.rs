@@ -44,7 +44,7 @@ pub struct Verifier {
     trail: Vec<u32>,
     /// The constraints in force on each agent.
     constraints: Vec<Vec<Constraint>>,
-    /// For each constraint in force, the number of times that it was added.
+    /// For each constraint in force, how often it occurs among the constraints in force.
     present: HashMap<Constraint, u32>,
     /// For each agent its known costs, with ascending numbers of constraints.
     known: Vec<Vec<Known>>,
@@ -237,7 +237,8 @@ impl Verifier {
         ensure(permitted, "a plan may satisfy neither of these constraints").map(|_| (one, two))
     }
 
-    /// Parses the number of a lemma and returns the lemma. Refuses a lemma about other agents, or with a constraint that is not in force.
+    /// Parses the index of a lemma and returns the lemma. Refuses it if it is about an agent outside `of`, or has a constraint that is not
+    /// in force.
     fn usable(&self, tokens: &mut Tokens, of: &Lemma) -> Result<&Lemma, Fault> {
         let number = tokens.index(self.lemmas.len(), "lemma")?;
         let lemma = &self.lemmas[number as usize];

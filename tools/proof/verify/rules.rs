@@ -6,8 +6,8 @@ use crate::instance::{Place, World};
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub enum Kind { Bar, Move, NoRest, Rest, Pass, Stop, NoStop }
 
-/// `p` and `q` are places; for Stop and NoStop they are the number and the task of the stop. `s` and `e` are times; e = s for Rest and
-/// NoRest.
+/// `p` and `q` are places; for Stop and NoStop, `p` is a position in the order of stops, from 0, and `q` the task of the stop. `s` and `e`
+/// are times; e = s for Rest and NoRest.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Constraint {
     pub agent: u32,
@@ -211,8 +211,8 @@ impl Rules {
 
     pub fn arrived(&self, place: Place, time: u32) -> Flags { if time < self.rest_from(place) { EARLY } else { 0 } }
 
-    /// Returns the flags after a step between two places and, if the step completes a traversal of a chain that a Pass constraint names,
-    /// the index of the chain and the side on which the step leaves it.
+    /// Returns the flags, without EARLY, after a step between two places. If the step completes a traversal of a chain that a Pass
+    /// constraint names, also returns the index of the chain and the side on which the step leaves it.
     pub fn passing(&self, chains: &Chains, flags: Flags, from: Place, to: Place) -> (Flags, Option<(u32, u8)>) {
         let known = |place: Place| Some(chains.of[place as usize]).filter(|&chain| self.passes.iter().any(|pass| pass.0 == chain));
         if self.passes.is_empty() { return (0, None); }

@@ -14,7 +14,7 @@ pub type Path = Vec<(u32, Place)>;
 
 #[derive(Default)]
 pub struct Search {
-    /// Open labels in buckets. The index of a bucket is the lower bound of its labels minus that of the start.
+    /// Open labels in buckets. The index of a bucket is the lower bound of its labels minus that of the first start label.
     waiting: Vec<Vec<Label>>,
     /// Expanded labels. A label's kind is its state and interval; the first expanded label of a kind is the earliest.
     labels: Vec<Label>,

@@ -40,8 +40,8 @@ impl Successors<'_> {
         found
     }
 
-    /// Returns `done` with the stops that are done on arrival at this place. These are all stops there that take no time, and none if the
-    /// order of stops is constrained.
+    /// Returns `done` plus the stops that are done on arrival at this place: all stops there that take no time, or none if the order of
+    /// stops is constrained.
     fn done_on(&self, place: Place, done: u64) -> u64 {
         let here = self.model.stops_at(place) & !done;
         if here == 0 || self.rules.ordered { done } else { done | self.model.has_no_duration(here) }

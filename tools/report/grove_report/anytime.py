@@ -2,7 +2,7 @@
 """Computes quality over time: plan costs and lower bounds that runs have reached by a given time.
 
 Only the last plan of a run was checked. Earlier plans are taken as the run reports them, except that reported plans
-cheaper than the last one are ignored. A run that reports no earlier plan gets its plan when it ends. Runs that differ
+cheaper than the last one are ignored. A run that reports no earlier plan has its plan from its end on. Runs that differ
 only in the seed share the weight of their instance.
 """
 import itertools
@@ -19,7 +19,7 @@ class Step(NamedTuple):
     with_plan: float             # share of the instances that have a plan by now
     common_with_plan: float      # share of the common instances that have a plan of known cost by now
     cost_ratio: Optional[float]  # mean of cost / best known cost over the common instances with such a plan
-    cost_over_bound: Optional[float]  # mean of cost / best lower bound over those of them that have a bound
+    cost_over_bound: Optional[float]  # mean of cost / best lower bound over the same instances, if they have a bound
     bound_ratio: Optional[float]  # mean of bound / best known cost over all common instances; None until all have one
 
 
@@ -40,7 +40,7 @@ class Panel(NamedTuple):
     """The Curves for one map, or for one number of agents if there is only one map."""
     title: str
     instances: int
-    common: int    # number of instances for which every line has a plan with every seed
+    common: int    # number of instances that common_with_plans() returns
     curves: dict   # {line: Curve}
 
 
@@ -76,7 +76,7 @@ def bounds_over_time(row):
 
 
 def is_anytime(rows):
-    """Returns whether any run of a line is anytime or reports an improvement of its plan."""
+    """Returns whether any run of a line is anytime or reports an improvement of its plan. `rows`: rows of the line."""
     return any(row.anytime or len(row.trace) > 1 for row in rows)
 
 

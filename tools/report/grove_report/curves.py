@@ -93,7 +93,7 @@ def _finish(figure, axes, used, lines, looks):
 
 
 def _thin(points, most=MOST_STEPS):
-    """Keeps only the last point in each small interval of a log axis, and the first and the last point of all."""
+    """Thins out more than `most` points: keeps the first, and the last in each small interval of a log axis."""
     if len(points) <= most:
         return points
     first, last = max(points[0][0], SHORTEST_S), max(points[-1][0], 2 * SHORTEST_S)

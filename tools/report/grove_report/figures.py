@@ -92,10 +92,10 @@ def _longest_tick(ax):
 
 
 def pin_labels(axes, left):
-    """Places axis labels at fixed distances, in inches, further left if tick labels are long.
+    """Places axis labels at fixed distances from the axes. `left`: least distance of the y labels, inches.
 
-    Replaces matplotlib's automatic placement, which takes as long as the rest of the figure. axes: all panels of the
-    figure, which must have the same size.
+    Long tick labels increase this distance. Replaces matplotlib's automatic placement, which takes as long as the rest
+    of the figure. axes: all panels of the figure, which must have the same size.
     """
     figure, box = axes[0][0].figure, axes[0][0].get_position()
     left = max(left, 0.16 + 0.062 * max(_longest_tick(row[0]) for row in axes))
@@ -173,8 +173,8 @@ def _set_x(ax, x_values, name):
 
 
 def plot_metric(ax, configurations, x_of, lines, metric, looks, offsets):
-    """Plots one panel. `configurations`: {configuration: {line: Measures}}; a line has a gap at a configuration
-    without Measures for it."""
+    """Plots one panel. `configurations`: {configuration: {line: Measures}}; a line is interrupted at a
+    configuration without its Measures."""
     drawn = False
     for rank, line in enumerate(lines):
         points = [(x_of(configuration) + offsets[line], metric.value(found[line]) if line in found else None)
@@ -382,8 +382,8 @@ def cactus(groups, lines, looks, per_row=2):
 
 
 def _omega_labels(family, lines, looks):
-    """Returns the labels of a study. A label of the family is only its omega if omegas are unique and either all lines
-    have one method or longer labels would not fit; otherwise it is omega and the name."""
+    """Returns the labels of a study. A label of the family is only its omega if omegas are unique and either all its
+    lines have one method or longer labels would not fit; otherwise it is omega and the name."""
     labels = [omega_text(line.omega) for line in family]
     longer = [f"{omega_text(line.omega)}: {looks.name(line)}" for line in lines]
     longer = [label if len(label) <= 32 else label[:30] + "..." for label in longer]

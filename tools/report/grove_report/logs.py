@@ -22,7 +22,7 @@ class Run(NamedTuple):
     instance: str    # as the log names it
     agents: Optional[int]
     options: str
-    status: str      # "" if the log has no end of the run
+    status: str      # "" if the log contains no summary with a status
     end_s: float
     moments: list    # Moments in order of time; each differs from the previous one
 

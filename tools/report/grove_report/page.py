@@ -79,7 +79,7 @@ def _data(kind, content):
 
 
 def _file(report, before, name):
-    """Returns a download link. The page contains the file itself, so that the page can be moved without it."""
+    """Returns a download link. The link contains the content of the file, so that the page can be moved on its own."""
     return f'<p>{_text(before)}: <a download="{name}" href="{_data("text/csv", report.files[name])}">{name}</a>.</p>'
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Reads plans of classical MAPF from the plan files that `grove bench --keep-plans` kept.
 
-`grove bench` has already checked the plans, and the rows have its verdict. This module only requires that a file has
-sequences of moves.
+`grove bench` has already checked the plans, and the rows contain its verdict. This module only requires that a file
+contains sequences of moves.
 """
 import json
 import re

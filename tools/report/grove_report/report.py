@@ -268,7 +268,10 @@ def _write_tables(output, problem, lines):
 
 
 def _shown_configuration(configurations, wanted_map, wanted_agents):
-    """Returns map and N for the figure of a study, by default the paper's room map and N = 5 if the data has them."""
+    """Returns map and N for the figure of a study.
+
+    They are the wanted ones or, by default, the first room map (or else the first map) and N = 5 (or else the least N).
+    """
     maps = sorted({configuration.map for configuration in configurations})
     name = wanted_map or next((name for name in maps if name.startswith("room")), maps[0])
     sizes = sorted({configuration.agents for configuration in configurations if configuration.map == name})

@@ -357,7 +357,7 @@ def _read_file(path):
 def _without_repeats(rows):
     """Returns (rows without repetitions, number of omitted rows).
 
-    Keeps the row that ended last among rows with the same method, instance, omega, limit and seed.
+    Keeps the row that ended last among rows with the same problem, instance, method, omega, limit and seed.
     """
     kept = {}
     for row in rows:

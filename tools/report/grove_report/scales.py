@@ -2,7 +2,7 @@
 """Computes positions of points and start values of axes."""
 import math
 
-SPREAD = 0.05  # share of the gap between two ticks; with more, a point does not clearly belong to its tick
+SPREAD = 0.05  # width of the points at a tick / gap between ticks; if larger, a point could belong to two ticks
 CLOCK_S = 1e-6  # resolution of runtimes, seconds
 
 

@@ -2,9 +2,10 @@
 """Assigns colour, marker and dashes to each line, the same in every figure."""
 from typing import NamedTuple
 
-# The palette of Okabe and Ito, which colour-blind readers can distinguish, without its yellow, which is hard to see on
-# white; then a brown; from the ninth on, darker and greyer colours. The numbers of colours and markers have no common
-# divisor, so that up to 132 lines have distinct pairs of colour and marker.
+# The first seven colours are the palette of Okabe and Ito, which colour-blind readers can distinguish. Its yellow is
+# omitted, because it is hard to see on white. Then a brown and, from the ninth on, darker and greyer colours. The
+# numbers of colours and markers have no common divisor, so that up to 132 lines have distinct pairs of colour and
+# marker.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9", "#8C510A",
            "#7B3294", "#7F7F7F", "#A50026", "#66A61E")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", "*", ">", "p")
@@ -27,13 +28,16 @@ class Style(NamedTuple):
 
 
 def style_of(index, is_baseline):
-    """Returns the Style of the line with number `index`, from 0, among all lines."""
+    """Returns the Style of the line with this index among all lines."""
     return Style(COLOURS[index % len(COLOURS)], MARKERS[index % len(MARKERS)],
                  DASHES[index % len(DASHES)] if is_baseline else None)
 
 
 def depth(rank, count):
-    """Returns the depth of line number `rank` of `count` lines in drawing order, from 0 (drawn last) to at most 1."""
+    """Returns the depth of a line, from 0 (drawn last) to at most 1.
+
+    rank: index of the line among the `count` lines in drawing order.
+    """
     return (count - 1 - rank) / max(count - 1, 4)
 
 

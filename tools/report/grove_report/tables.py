@@ -56,7 +56,7 @@ NOTHING = Entry("–", "no rows")
 
 
 def seconds(value):
-    """Formats seconds with three significant digits."""
+    """Formats seconds with at least three significant digits. Shorter times than 1 ms become "<0.001", None a dash."""
     if value is None:
         return "–"
     if value < 0.001:

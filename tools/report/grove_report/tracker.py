@@ -247,7 +247,7 @@ def known_of(rows, known):
 
 
 def comparisons(rows, known):
-    """Returns the Comparisons for all rows whose instance is in the archive. `known`: read_known()."""
+    """Returns a Comparison for each line on each instance that is in the archive. `known`: read_known()."""
     found = []
     groups = grouped(rows, lambda row: (row.problem, row.instance, line_of(row)))
     for (_, instance, line), group in groups.items():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Connects to real cubes by bleak (Debian: python3-bleak 0.20). Not tested with real cubes.
+"""Connects to real cubes with bleak (Debian: python3-bleak 0.20). Not tested with real cubes.
 
 Real and simulated cubes have the same interface: write(), configure() and three notification handlers.
 """
@@ -87,7 +87,7 @@ class BluetoothCube:
             pass
 
     async def read_position(self):
-        """Returns the position (x, y) in mat units. Returns None if the cube does not stand on a mat."""
+        """Returns the position (x, y) in mat units. Returns None if READ_TRIES reads give no position."""
         for _ in range(READ_TRIES):
             found = protocol.read_id_notification(bytes(await self.client.read_gatt_char(protocol.ID_INFORMATION)))
             if isinstance(found, protocol.Position):
@@ -112,7 +112,10 @@ def choose_named(devices, named):
 
 
 def choose_by_place(order, grid, robots, positions):
-    """Returns {robot: label of the cube on its start}. `positions`: {label: (x, y) or None}."""
+    """Returns {robot: label of the cube on its start}. `positions`: {label: (x, y) or None}.
+
+    Raises BadInput unless exactly one cube is near each start.
+    """
     chosen = {}
     for robot in robots:
         start = grid.centre(order.robot(robot).start)
@@ -144,7 +147,7 @@ async def _scan():
 
 
 async def connect_cubes(order, grid, named):
-    """Connects one cube per robot and returns {robot: cube}."""
+    """Connects to one cube per robot and returns {robot: cube}."""
     devices, others = choose_named(await _scan(), named)
     cubes = {}
     spare = []

@@ -56,7 +56,7 @@ class Driver:
         self.log, self.say = log, say
         self.handles = [Handle(robot, cubes[robot.name], grid.centre(robot.start), self.now) for robot in order.robots]
         self.by_name = {h.name: h for h in self.handles}
-        self.at_ring = {ring: {} for ring in order.rings}     # {ring: {robot: last part that it has completed}}
+        self.at_ring = {ring: {} for ring in order.rings}     # {ring: {robot: index of last path point reached, or -1}}
         self.under_way = set()                                # rings in progress
         self.reported = {}                                    # {(robot, subject): (kind, text)}
 
@@ -211,13 +211,16 @@ class Driver:
 
     @staticmethod
     async def hold(handle):
-        """Sends a stop unless the cube is at rest or stopping. Call it repeatedly, because messages can be lost."""
+        """Sends a stop if the cube is detected and neither at rest nor stopping.
+
+        Call it repeatedly, because messages can be lost.
+        """
         stopping = handle.command is not None and handle.command.kind == "stop"
         if handle.seen_now and not stopping and not handle.at_rest:
             await handle.stop()
 
     async def redirect(self, handle, path):
-        """Extends or shortens a journey in progress. Other motions are short, so they are left to end."""
+        """Extends, shortens or stops a journey in progress. Other motions are short, so they are left to end."""
         if handle.command.kind != "journey" or handle.command.path[-1] == path[-1]:
             return
         if len(path) == 2 or not self.within_last_units(handle.position, path[0]):
@@ -236,7 +239,10 @@ class Driver:
         return abs(goal[0] - point[0]) <= LAST_UNITS and abs(goal[1] - point[1]) <= LAST_UNITS
 
     async def cover_last_units(self, handle, goal):
-        """Turns the cube towards or away from the goal, then rolls. For last units, where a cube ignores targets."""
+        """Turns or rolls the cube once, towards a goal so near that the cube could ignore it as a target.
+
+        Turns it unless the goal is about straight ahead or behind; otherwise rolls it to the goal.
+        """
         dx, dy = goal[0] - handle.mean[0], goal[1] - handle.mean[1]
         way, bearing = math.hypot(dx, dy), math.degrees(math.atan2(dy, dx))
         off = turn_between(handle.angle, bearing)
@@ -259,7 +265,7 @@ class Driver:
     # ---- Failures
 
     def is_drivable(self, handle):
-        """Returns whether the cube can be driven. Otherwise reports the cause, each cause once."""
+        """Returns whether the cube can be driven. Reports each new cause if it cannot, and when it can again."""
         if handle.trouble:
             return self.report_undrivable(handle, "lost", handle.trouble)
         if handle.missing:
@@ -289,14 +295,14 @@ class Driver:
             self.say(f"{self.now():7.1f} s  {handle.name} {text}")
 
     def withdraw(self, handle, about, text=None):
-        """Clears the report on a subject. If there was one, prints `text`."""
+        """Clears the report on a subject. If there was one, prints `text` unless it is None."""
         if self.reported.pop((handle.name, about), None) and text:
             self.say(f"{self.now():7.1f} s  {handle.name} {text}")
 
     def waits_of(self, handle):
-        """Describes what the robot waits for or does.
+        """Describes the fault of the cube, what the robot waits for, or what it does.
 
-        Returns None if it has completed all its actions and has no fault.
+        Returns None if it has completed all its actions and no fault or blocked lane is reported.
         """
         k = handle.done
         if (handle.name, "undrivable") in self.reported:

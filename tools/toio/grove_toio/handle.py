@@ -6,7 +6,7 @@ from typing import NamedTuple
 from . import protocol
 from .geometry import distance, point_to_segment, turn_between
 
-ANSWER_SECONDS = 0.5        # after this time without motion and response, a message was lost or the cube has stopped
+ANSWER_SECONDS = 0.5        # after this time without motion or response, a message was lost or the cube has stopped
 SETTLE_SECONDS = 0.06       # time from the end of a motion until notified positions are those of a cube at rest
 SILENT_SECONDS = 1.0
 MOVED, TURNED = 3.5, 7      # larger changes are motion and not noise, units and degrees
@@ -83,7 +83,7 @@ class Handle:
         self.command, self.rest_since = None, self.now() + SETTLE_SECONDS
 
     def settle(self):
-        """Ends a command whose time has passed without a response."""
+        """Treats the command as ended if its duration, or ANSWER_SECONDS without motion or response, have passed."""
         if self.command is None:
             return
         if self.command.kind in ("wheels", "stop"):
@@ -108,7 +108,7 @@ class Handle:
 
     @property
     def at_rest(self):
-        """Whether the latest positions are equal up to noise. The positions of a moving cube differ."""
+        """Whether no command is running, the cube is detected, and its latest positions are equal up to noise."""
         if self.command is not None or not self.seen_now:
             return False
         those = self._positions_at_rest()
@@ -123,7 +123,7 @@ class Handle:
         return point_to_segment(self.position, a, b) <= tolerance
 
     def lane(self):
-        """Returns the path along which the cube may be from now on."""
+        """Returns the path on which the cube may be from now on, as far as it is known."""
         if not self.seen_now:
             return [self.place, self.goal]
         if self.command is None or self.command.kind == "stop":

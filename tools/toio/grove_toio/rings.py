@@ -4,7 +4,7 @@
 If the robots drove straight, two of them would be half a cell from a corner at the same time. Then they are only 0.7
 cells apart, and even less if one lags. Therefore they take the corners wide (four robots in a square drive on one
 circle), and they drive in PARTS parts: no robot starts a part before all have completed the previous part. Before any
-robot moves, least_pitch() determines for each ring whether this keeps the robots apart.
+robot moves, the program checks that the pitch of the grid is at least the least_pitch() of each ring.
 """
 import math
 
@@ -39,7 +39,7 @@ def _wide_path(cell, direction, turn_before, turn_after):
 
 
 def wide_paths(cells):
-    """Returns, for the robot on each cell of the ring, the points between its parts, in cells, from its own cell on."""
+    """Returns a path for the robot on each cell of the ring: its cell, then the end point of each part, in cells."""
     count = len(cells)
     directions = [_direction(cells[i], cells[(i + 1) % count]) for i in range(count)]
     turns = [_turn(directions[i - 1], directions[i]) for i in range(count)]
@@ -47,7 +47,7 @@ def wide_paths(cells):
 
 
 def least_gap(paths):
-    """Returns the least distance, in cells, between two robots on these paths that are anywhere in the same part."""
+    """Returns the least distance, in cells, that two robots on these paths can have while both are in the same part."""
     return min(segment_to_segment(*one[part:part + 2], *other[part:part + 2])
                for i, one in enumerate(paths) for other in paths[:i] for part in range(PARTS))
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Simulates a cube, which exchanges the bytes of a real cube, drives on two wheels, slips, and loses messages.
+"""Simulates a cube, which exchanges the same bytes as a real cube, drives on two wheels, slips, and loses messages.
 
 The simulation follows the specification. Where the specification leaves the behaviour open, it assumes the worst case:
 every journey ends up to 15 units before its target.
@@ -73,7 +73,7 @@ class SimulatedCube:
         self.next_in = self._send(self.next_in, self._receive_configuration, bytes(data))
 
     def _send(self, not_before, handler, data):
-        """Delivers or loses a message and returns its arrival time. Messages in one direction keep their order."""
+        """Delivers or loses a message. Returns the time before which no later message in its direction may arrive."""
         if self.random.random() < self.disturbances.loss:
             return not_before
         loop = asyncio.get_running_loop()

@@ -13,8 +13,9 @@ MOST_TICKS = 20             # maximum number of late ticks that are run at once 
 
 
 class Lift:
-    """A disturbance: a hand lifts the cube at time `at` and puts it back `seconds` later, at `where` or, if that is
-    None, near its last position.
+    """A disturbance: a hand lifts the cube at time `at` and puts it back after at least `seconds`.
+
+    It puts the cube back as soon as there is room at `where` or, if that is None, near the cube's last position.
     """
 
     def __init__(self, cube, at, seconds, where=None):
@@ -75,7 +76,7 @@ class World:
                 self.lifts.remove(lift)
 
     def _put_back(self, lift):
-        """Puts the cube back at a free position. Returns False if it finds none."""
+        """Puts the cube back at a free position. Returns False if 20 tries find none."""
         for _ in range(20):
             x, y = lift.where or [at + self.random.uniform(-SPREAD, SPREAD) for at in (lift.cube.x, lift.cube.y)]
             if self.on_mat(x, y) and all(distance((x, y), (c.x, c.y)) > BODY + 6

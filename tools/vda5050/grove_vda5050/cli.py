@@ -180,7 +180,7 @@ def _parser():
 
 
 class Setup:
-    """Topics, routes and message style, derived from the options and the passing order."""
+    """Topics, routes and message style, derived from the options and the passing order; for `watch`, only topics."""
 
     def __init__(self, a):
         self.topics = Topics(a.protocol, a.interface or a.protocol.interface, a.manufacturer)
@@ -264,7 +264,7 @@ class _Drive:
                                Limits(a.base, a.horizon), send, clock, log, say)
 
     def step(self):
-        """Receives messages for TICK real seconds and sends due orders. Returns whether all vehicles are done."""
+        """Processes messages for TICK real seconds, then resends orders. Returns whether all vehicles are done."""
         until = self.clock.real() + TICK
         while (left := until - self.clock.real()) > 0:
             try:

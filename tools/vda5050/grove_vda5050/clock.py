@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Provides a clock with two times since the start of a drive: real seconds and vehicle seconds.
 
-The times differ, because simulated vehicles can be faster than real vehicles. Plan, log and disturbances are in vehicle
+The times differ if simulated vehicles run faster or slower than real time. Plan, log and disturbances are in vehicle
 seconds.
 """
 import time

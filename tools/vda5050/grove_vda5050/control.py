@@ -46,8 +46,8 @@ class Vehicle:
 class Control:
     """Controls all vehicles of an order.
 
-    send(vehicle, content) publishes an order. log(seconds, vehicle, ...) writes a line of the log at a time in vehicle
-    seconds.
+    send(vehicle, content) publishes an order. log(seconds, vehicle, ...) writes a line of the log;
+    `seconds` are vehicle seconds.
     """
 
     def __init__(self, releases, style, order_id, limits, send, clock, log=None, say=lambda text: None):
@@ -99,7 +99,7 @@ class Control:
                 self.extend(other)
 
     def _read_errors(self, name, errors):
-        """Prints the errors of a state, each error once."""
+        """Prints the errors of a state that the previous state did not contain."""
         vehicle = self.vehicles[name]
         found = tuple(f"{e.get('errorType')}" + (f": {e['errorDescription']}" if e.get("errorDescription") else "")
                       for e in errors)
@@ -119,7 +119,10 @@ class Control:
     # ---- Orders to vehicles
 
     def extend(self, name):
-        """Sends the nodes that may now be released to a vehicle, unless an update is unconfirmed."""
+        """Releases further nodes to a vehicle if the order and the limits allow it.
+
+        Does nothing if the vehicle is offline or has an unconfirmed update.
+        """
         vehicle = self.vehicles[name]
         if not vehicle.online or vehicle.confirmed < vehicle.update:
             return
@@ -166,7 +169,7 @@ class Control:
                      self.releases.done[name], self.state_of(name))
 
     def reasons(self):
-        """Yields, for each vehicle that is not done, why not."""
+        """Yields for each vehicle that is not done a text that says why."""
         for name, vehicle in self.vehicles.items():
             if vehicle.completed:
                 continue

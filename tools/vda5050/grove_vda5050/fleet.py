@@ -13,7 +13,7 @@ from .vehicle import SimulatedVehicle
 
 TICK = 0.02                 # real seconds between two steps of the simulation
 HEARTBEAT = 10.0            # real seconds between states if nothing changes; VDA 5050 allows at most 30
-NEAR = 1.5                  # larger distances between vehicles are not measured, cells
+NEAR = 1.5                  # pairs of vehicles up to this distance are always measured, cells
 
 
 class Disturbances(NamedTuple):

@@ -3,8 +3,8 @@
 
 1. Every message satisfies its published schema.
 2. No vehicle reports a node that was not released to it.
-3. Take, for each vehicle, its released nodes from the last node that it reported as reached. The nodes of two vehicles
-   have no place in common. Therefore vehicles that stay within their bases cannot meet, however late they are and
+3. A vehicle holds its released nodes, from the last node that it reported as reached on. No two vehicles hold nodes
+   with the same place. Therefore vehicles that stay within their bases cannot meet, however late they are and
    whichever messages they have not received yet.
 """
 import json

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Connects to an MQTT broker by paho (Debian: python3-paho-mqtt 1.6)."""
+"""Connects to an MQTT broker with paho (Debian: python3-paho-mqtt 1.6)."""
 import json
 import queue
 import threading
@@ -53,7 +53,7 @@ class Connection:
         self.inbox = queue.SimpleQueue()
         self.topics, self.hello = topics, hello
         self.failure = None
-        self.subscribed = threading.Event()     # once set, no message is missed
+        self.subscribed = threading.Event()     # set when the broker has confirmed a subscription
         self.client = paho.Client()
         self.client.max_queued_messages_set(MOST_SEND)
         if broker.username:

@@ -42,7 +42,7 @@ class Topics(NamedTuple):
 
 
 class Header:
-    """Creates the message headers for one topic, with consecutive numbers."""
+    """Adds headers with consecutive numbers to the messages of one topic."""
 
     def __init__(self, protocol, manufacturer, serial):
         self.fixed = {"version": protocol.version, "manufacturer": manufacturer, "serialNumber": serial}

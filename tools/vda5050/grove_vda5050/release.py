@@ -2,12 +2,12 @@
 """Determines, for each vehicle, the last node of its route that may be released to it.
 
 A released base cannot be taken back. Therefore a node is released only when its vehicle may drive there and do all
-actions there without further conditions, that is, when for every action up to the next move the action for which it
-waits has been reported as completed. Then, by the passing order, no other vehicle is on that place or drives there, and
-none may be sent there before this vehicle has left it, because the other vehicles wait for that. (Waits that the order
-omits follow from waits of earlier actions of the same robot, whose predecessors are completed, too.) Consequently the
-nodes released to different vehicles, each counted from the last node that the vehicle reported as reached, never have
-a place in common. `grove vda5050 watch` checks this without using the order.
+actions there without further conditions. That is the case when every action for which the move to the node, or an
+action on the node, waits has been reported as completed. Then, by the passing order, no other vehicle is on that place
+or drives there, and none may be sent there before this vehicle has left it, because the other vehicles wait for that.
+(Waits that the order omits follow from waits of earlier actions of the same robot, whose predecessors are completed,
+too.) Consequently, if each vehicle holds its released nodes from the last node that it reported as reached on, no two
+vehicles hold nodes with the same place. `grove vda5050 watch` checks this without using the order.
 """
 
 
@@ -22,7 +22,10 @@ class Releases:
             self._advance(name)
 
     def waits_for(self, name):
-        """Returns the (robot, action) for which the node after the last allowed node waits. Returns None if none."""
+        """Returns an action, as (robot, action), that must be completed before the next node may be released.
+
+        Returns None if there is no such action or no further node.
+        """
         route, following = self.routes[name], self.allowed[name] + 1
         if following > route.last:
             return None

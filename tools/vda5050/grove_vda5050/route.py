@@ -31,7 +31,7 @@ class Node(NamedTuple):
     place: tuple            # place in the passing order
     at: tuple               # (x, y) in metres
     begin: int              # index of the first action of the passing order that is done on the node
-    end: int                # index after its last action
+    end: int                # index after that of the last such action
     node_actions: tuple     # VDA 5050 actions on the node, in order
     done_after: tuple       # for each action from begin to end, the number of node actions done after it
     theta: float            # final heading, radians; None if it is not the last node, or without headings
@@ -86,7 +86,8 @@ def actions_done(route, reached, finished):
     """Returns the number of passing-order actions that a vehicle has completed.
 
     reached: last node that it reached. finished: ids of its finished node actions. A turn counts as completed as soon
-    as a later node action is finished or a later node is reached.
+    as a later node action is finished or a later node is reached; on the last node, also when all node actions are
+    finished.
     """
     node = route.nodes[reached]
     count = 0

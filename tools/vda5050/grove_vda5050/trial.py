@@ -73,7 +73,7 @@ def end_vehicles(process):
 
 
 def monitor_connection(broker, topics):
-    """Returns a connection that receives all messages of all vehicles."""
+    """Returns a connection that receives all messages from and to the vehicles of `topics`."""
     connection = Connection(broker, [(topics.topic("+", "+"), 0)])
     connection.await_subscription()
     return connection

@@ -12,7 +12,7 @@ ALIGNED = 1e-6
 
 
 class Refused(Exception):
-    """An order is refused. `kinds`: error types in versions 2.1.0 and 3.0.0."""
+    """Raised to refuse an order. `kinds`: error types in versions 2.1.0 and 3.0.0."""
 
     def __init__(self, kinds, why):
         super().__init__(why)
@@ -189,7 +189,7 @@ class SimulatedVehicle:
         return seconds - used
 
     def _turn(self, goal, seconds):
-        """Turns to a heading and returns the seconds left. Returns None if the vehicle already has this heading."""
+        """Turns towards a heading and returns the seconds left. Returns None if the vehicle already has the heading."""
         off = turn_between(self.theta, goal)
         if abs(off) < ALIGNED:
             return None

@@ -48,7 +48,7 @@ export class DriveApp implements PageState {
   }
 
   // Returns the time at which the robot completed an action (-1: the start, at time 0), in seconds; Infinity
-  // if the log does not have it yet.
+  // if the log does not contain it yet.
   visitTime(agent: number, action: number): number {
     return action < 0 ? 0 : this.drive.completedAt[agent][action] ?? Infinity;
   }

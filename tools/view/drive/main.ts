@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Page of an execution: reads the log, from the page or from the server while it grows, and shows it.
+// Page of an execution. Shows the log that the page contains or, during the execution, the growing log that
+// the server sends.
 
 import { kDark, kLight } from "../page/colors";
 import { el } from "../page/dom";

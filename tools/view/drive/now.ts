@@ -7,8 +7,9 @@ import type { Model } from "../page/model";
 import type { RobotsNow } from "../page/robots_now";
 import { kStates, markOf, needsHelp, type Drive, type State } from "./drive";
 
-// The log has a change of state within kBrief seconds, and a moving robot at least every kLongest seconds. A
-// motion before an observation is therefore assumed to take no longer.
+// The log records a change of state within kBrief seconds, and a moving robot at least every kLongest seconds.
+// Therefore the motion before an observation is assumed to take at most kLongest seconds if the robot was
+// moving at the observation before, and at most kBrief seconds otherwise.
 const kBrief = 0.15;
 const kLongest = 10;
 

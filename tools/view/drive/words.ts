@@ -32,7 +32,7 @@ export function stateText(state: number): string {
   return kStateWords[kStates[state]];
 }
 
-// Returns the name of the robot that a robot waits for at a time; empty: none.
+// Returns the name of the robot for which robot `agent` waits at `time`; empty: none.
 export function waitText(app: DriveApp, agent: number, time: number): string {
   const wait = app.order.wait(agent, app.drive.actionsAt(agent, time));
   if (!wait || app.drive.actionsAt(wait.agent, time) > wait.action) return "";
@@ -56,7 +56,8 @@ export function lateText(seconds: number): string {
   return seconds < 1 ? "" : `${clockText(seconds)} late`;
 }
 
-// Returns a sentence with the delay of a robot and the planned end of its next or last action.
+// Returns a sentence with the delay of a robot and the planned end of its next or last action; empty if it has
+// no actions.
 export function lateSentence(app: DriveApp, agent: number, time: number): string {
   const late = lateText(lateness(app, agent, time));
   const all = app.order.actions(agent);

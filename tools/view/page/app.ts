@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // State of the page: plans, the moment shown, and the selected robot or task. Panels read the state, change
-// it through its methods, and are notified of every change except that of time.
+// it through its methods, and are notified of every change except the advance of time during playback.
 
 import { Checker, type Violation } from "./check";
 import { compare, type Comparison } from "./compare";

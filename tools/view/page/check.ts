@@ -30,7 +30,7 @@ export function check(model: Model, plan: Plan): Violation[] {
   return checker.violations;
 }
 
-// Searches for violations, a few milliseconds per call of step().
+// Searches for violations, for about the requested time per call of step().
 export class Checker {
   readonly violations: Violation[] = [];
   done = false;
@@ -124,7 +124,7 @@ export class Checker {
 }
 
 // Returns what is wrong with the claimed bound and status, given the computed cost; null: nothing, or the
-// plan claims no bound.
+// plan does not claim all of status, bound and omega.
 function wrongClaim(plan: Plan, cost: number): string | null {
   const { status, lower_bound: bound, omega } = plan.claims;
   if (status === undefined || bound === undefined || omega === undefined) return null;
@@ -393,7 +393,7 @@ class AgentCheck {
   }
 }
 
-// Returns the first time after `begin` at which the value of the track differs from that one step earlier;
+// Returns the first time after `begin` at which the value of the track differs from the value one step before;
 // Infinity: never.
 function nextChange(track: Track | TurnTrack, begin: number): number {
   for (let run = track.run(begin); run < track.runs; ++run)

@@ -48,7 +48,7 @@ export function partingTime(a: AgentPlan, b: AgentPlan): number {
 }
 
 // Returns the first time at which the values of two tracks differ; Infinity: never. Compares only where
-// a run starts, because from there on equal steps keep equal values equal until a run ends.
+// a run starts: until the next run starts, equal values with equal steps stay equal.
 function parting<T extends Track | TurnTrack>(
   a: T, b: T, value: (track: T, time: number) => number,
 ): number {

@@ -19,7 +19,7 @@ export interface PlanEvent {
 const kLongWait = 3; // steps; shorter waits are listed only for the selected robot
 const kMostNames = 3;
 
-// Returns the events of all plans: first violations, then all others, each in order of time.
+// Returns the events of all plans: first the violations, then all other events, both in order of time.
 export function eventsOf(app: App): PlanEvent[] {
   const [first, second] = app.viewed.map((viewed) => eventsOfPlan(app.model, viewed));
   const all = second ? merged(app, first, second) : first ?? [];
@@ -27,7 +27,7 @@ export function eventsOf(app: App): PlanEvent[] {
   return all.sort((a, b) => rank(a) - rank(b) || a.time - b.time);
 }
 
-// Merges the events of two plans. An event that both plans have is listed once. Each event names its plan.
+// Merges the events of two plans. Lists an event of both plans once. Adds its plan, or "both plans", to each.
 function merged(app: App, first: PlanEvent[], second: PlanEvent[]): PlanEvent[] {
   const key = ({ kind, text, time }: PlanEvent) => `${kind} ${time} ${text}`;
   const lists = [first, second];

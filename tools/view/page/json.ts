@@ -40,8 +40,8 @@ export class Value {
     return new Value(value, this.path === "" ? name : `${this.path}.${name}`);
   }
 
-  // Fails if the object has a key other than these, because a key that the reader expects may then be
-  // missing.
+  // Fails if the object has a key other than these, because an unknown key may be an expected one under a wrong
+  // name.
   only(...names: string[]): void {
     for (const name of Object.keys(this.value as object))
       if (!names.includes(name)) this.fail(`no '${name.slice(0, 40)}', but ${names.join(", ")}`);

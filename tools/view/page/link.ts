@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Links to a moment and a robot or a task: #t=37&agent=a4. A link from a live display has no moment, because
-// that advances by itself.
+// Links to a moment and a robot or a task: #t=37&agent=a4. A link from a live display contains no moment,
+// because a live display advances by itself.
 
 import type { Player } from "./player";
 import type { PageState } from "./stage";

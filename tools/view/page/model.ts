@@ -12,7 +12,7 @@ export interface Road {
   to: number;
   steps: number;
   oneWay: boolean;
-  first: number; // its first inner place; the road has steps - 1 of them
+  first: number; // its first inner place; the road has steps - 1 inner places
 }
 
 // World units are cells on a grid, and metres on a roadmap. y points down, although it points up in roadmap
@@ -31,7 +31,7 @@ export interface World {
   vertexNames: string[]; // of a roadmap
   mayMove(from: number, to: number): boolean; // whether this is a possible move of one step
   place(place: number): string; // the name of a place, for texts
-  drawn(x: number, y: number): Point; // world position of cells (integer centres) or metres of the file
+  drawn(x: number, y: number): Point; // world position of a point in cells (integers: centres) or metres of the file
 }
 
 export interface Agent {

@@ -49,7 +49,7 @@ export class Labels {
     if (shown.chosen >= 0) this.paintChosen(c, camera, frame, shown.chosen, step, colors);
   }
 
-  // Returns the visible robots, which get ids; none if they are too many for the space.
+  // Returns the visible robots, whose ids are painted; none if there are too many of them for the space.
   private inSight(camera: Camera, frame: RobotsNow, step: number): number[] {
     const most = step >= kLeastLabeled ? Infinity : shapes.maxTags;
     const seen: number[] = [];

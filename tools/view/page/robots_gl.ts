@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Paints robots by WebGL, with one instance of a quad per robot. The shader computes shapes and colours. Each
+// Paints robots with WebGL, with one instance of a quad per robot. The shader computes shapes and colours. Each
 // frame sends four numbers per robot to the graphics card.
 
 import { shapes } from "../palette.json";
@@ -85,14 +85,14 @@ export class GlRobots implements RobotPainter {
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   }
 
-  // Returns null if the browser has no WebGL.
+  // Returns null if the browser does not support WebGL 2.
   static on(canvas: HTMLCanvasElement, world: World, count: number): GlRobots | null {
     const gl = canvas.getContext("webgl2");
     return gl ? new GlRobots(gl, world, count) : null;
   }
 
   // Whether WebGL runs on a graphics card; in software it is slower than a 2D canvas. Tests this on a new
-  // canvas, so that those of the page remain unchanged.
+  // canvas, so that the canvases of the page remain unchanged.
   static isFast(): boolean {
     const gl = document.createElement("canvas").getContext("webgl2", {
       failIfMajorPerformanceCaveat: true,

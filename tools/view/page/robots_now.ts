@@ -7,7 +7,7 @@ export interface RobotsNow {
   readonly count: number;
   readonly xs: Float32Array; // in world units
   readonly ys: Float32Array;
-  readonly angles: Float32Array; // clockwise from up, in radians; NaN: turns freely
+  readonly angles: Float32Array; // clockwise from up, in radians; NaN: unknown, or turns freely
   readonly doing: Uint8Array; // values of Doing (facts.ts)
   readonly colliding: Uint8Array; // 1 if the robot is marked: it collides or has another problem
   readonly missing: Uint8Array; // 1 if the robot is not drawn

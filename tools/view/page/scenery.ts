@@ -158,7 +158,7 @@ export class Scenery {
   }
 
   // Paints vertex names below the objects on the vertices. If names would overlap, paints only the first of
-  // them.
+  // them. Paints none if the view is too small for all visible names.
   private paintNames(c: CanvasRenderingContext2D, camera: Camera, colors: Colors): void {
     const { world } = this.model;
     const step = world.unit * camera.scale;

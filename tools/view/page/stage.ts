@@ -85,8 +85,8 @@ export class Stage {
     this.onCamera();
   }
 
-  // Selects the nearest robot, otherwise the task at this point, otherwise the robot whose destination is
-  // there, otherwise nothing.
+  // Selects the nearest robot within reach of this point. If there is none, selects a task there, otherwise a
+  // robot whose destination is there, otherwise nothing.
   private click(x: number, y: number): void {
     const { model } = this.app;
     const { world } = model;
@@ -119,7 +119,7 @@ export class Stage {
     }
     const shown = this.shown();
     this.fit(ratio);
-    // Tasks change only at whole steps.
+    // If only the time has changed, repaints the scenery once per step (in an execution: per second).
     if (this.dirty || Math.floor(player.time) !== this.step)
       this.scenery.paint(this.camera, player.time, shown, colors, ratio);
     this.step = Math.floor(player.time);

@@ -75,7 +75,7 @@ export class Track {
   }
 }
 
-// The angles over time of an agent for which turning takes time, as runs like those of Track.
+// The angle, over time, of an agent that needs time to turn. Stored as runs, as in Track.
 export class TurnTrack {
   constructor(
     readonly times: Int32Array,
@@ -160,7 +160,7 @@ function* stepsOf(text: string, letters: string): Generator<Step> {
   if (count !== 0) throw new Error("a path ends with a number");
 }
 
-// Return, for each letter of a path, the number that a step adds to the place.
+// Each function returns, for each letter of a path, the number that a step adds to the place.
 export function stepsOnGrid(columns: number): Map<string, number> {
   return new Map([["E", 1], ["W", -1], ["S", columns], ["N", -columns], [".", 0]]);
 }

@@ -12,7 +12,7 @@ export interface Constraint {
   places: number[]; // `move` and `pass`: from, to; `stop` and `nostop`: none; others: one place
   begin: number; // equal to `end` for constraints with a single time
   end: number; // Infinity: forever
-  stop: number; // number among the agent's stops (docs/proof.md), from 0; -1: none
+  stop: number; // position in the order of the agent's stops, from 0; -1: none
   task: number;
 }
 
@@ -27,7 +27,7 @@ export interface Row {
 export interface Step {
   line: number;
   kind: "leaf" | "split" | "later" | "joint" | "prices";
-  lemmas: number[]; // numbers of the lemmas that it uses
+  lemmas: number[]; // indices of the lemmas that it uses
   sides: Constraint[]; // the two constraints of `split` and `later`; empty for other steps
   children: Step[]; // one per side
   rows: Row[];
@@ -37,7 +37,7 @@ export interface Step {
 }
 
 export interface Statement {
-  number: number; // of the lemma, from 0; -1: the theorem
+  number: number; // index of the lemma; -1: the theorem
   bound: number; // lower bound on the sum of the agents' costs; Infinity: there is no plan
   agents: number[];
   constraints: Constraint[];

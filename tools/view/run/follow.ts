@@ -4,7 +4,7 @@
 const kPause = 1000; // milliseconds between requests, by default
 
 export interface Listener {
-  begin(): void; // the log is a different file, or starts again
+  begin(): void; // a log starts: the first one, or one that replaces it
   add(text: string, isAll: boolean): void; // isAll: the text ends at the current end of the log
   state(isLive: boolean): void; // whether the server responds
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads the log of a run, which may still grow. The parser is strict, except that it ignores unknown events.
+// Reads the log of a run. The log may still grow. The parser is strict, except that it ignores unknown events.
 // Errors name the line.
 
 import { parse, Value } from "../page/json";

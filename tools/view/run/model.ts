@@ -53,7 +53,7 @@ export interface Expanded {
   outcome: Outcome;
   conflict: string;
   split: string;
-  planCost: number; // cost of the plan, if the outcome is one
+  planCost: number; // cost of the plan if the outcome is `plan`; otherwise 0
 }
 
 export interface TreeNode {

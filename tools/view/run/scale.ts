@@ -3,7 +3,7 @@
 
 export interface Scale {
   at(value: number): number; // position from 0 (least) to 1 (most)
-  marks(most: number): number[]; // about `most` values; a logarithmic scale ignores it
+  marks(most: number): number[]; // about `most` values; a logarithmic scale ignores `most`
 }
 
 export function linear(least: number, most: number): Scale {

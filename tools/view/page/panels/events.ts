@@ -40,7 +40,7 @@ export class Events {
     return this.onlyChosen;
   }
 
-  // Discards the list of events, because more events are known.
+  // Discards the list of events, because more events are known now.
   forget(): void {
     this.known = null;
   }

@@ -12,7 +12,7 @@ export interface Moment {
   text: string;
 }
 
-// Creates the list. Calls `tell` only for the items that it shows.
+// Creates the list. Calls `describe` only for the items that it shows.
 export function moments<T>(app: App, things: T[], describe: (thing: T) => Moment): HTMLElement {
   const items = things.slice(0, kMost).map(describe).map(({ time, text }) =>
     el("li", {},
