@@ -40,8 +40,8 @@ struct SafeInterval {
 // length of the corridors with barred traversals; the first list that bars a traversal also takes
 // O(places). One thread at a time.
 //
-// With reservations instead of constraints, ensure_intervals() makes the intervals of a place on
-// demand: the caller must call it before any other query about the place. With constraints
+// With reservations instead of constraints, the intervals of a place are made when they are needed:
+// the caller must call ensure_intervals() before any other query about the place. With constraints
 // ensure_intervals() does nothing.
 //
 // Each arrival leads to one slot, and the slot determines the continuations after the arrival:
