@@ -269,8 +269,6 @@ class Session::Impl {
     } else {
       first.end();
     }
-    // The earlier plan, if it is kept, is valid only with these destinations.
-    if (!solution.plan && plan_) return solution;
     instance_ = free;
     affected_ = affected;
     ends_with_plan_.assign(ends_with_plan_.size(), false);
