@@ -18,7 +18,7 @@ from pathlib import Path
 
 
 MEMORY = 1_000_000_000  # bytes
-LONGEST_LINE = 1 << 22
+MAX_LINE_LENGTH = 1 << 22
 
 
 class Refused(Exception):
@@ -166,7 +166,7 @@ def lines_of(path):
     source = subprocess.Popen(["zstd", "-dcq", "--", path],
                               stdout=subprocess.PIPE).stdout if compressed else path.open("rb")
     with source:
-        while line := source.readline(LONGEST_LINE):
+        while line := source.readline(MAX_LINE_LENGTH):
             expect(line.endswith(b"\n"), "expected the end of a line")
             yield line[:-1].decode("ascii")
 

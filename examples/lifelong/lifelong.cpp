@@ -195,8 +195,8 @@ class Loop {
       throw std::runtime_error("no plan within a minute, although there was one before");
   }
 
-  // Advances all robots by one time step, and counts the tasks that thereby leave the instance as
-  // done.
+  // Advances all robots by one time step, and counts the tasks that leave the instance in this step
+  // as done.
   void step() {
     session_.advance(1);
     const grove::Instance left = session_.instance();

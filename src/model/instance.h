@@ -32,8 +32,8 @@ struct Agent {
   int kind = 0;                       // kind of the agent's base states (world.h)
   std::vector<TaskIndex> tasks = {};  // in ascending order of index
   // The tasks that the search must order, a subsequence of `tasks`. Of the agent's tasks on one
-  // place, the stops are those that take time or, if none does, one of them. An agent that visits
-  // its stops on a place thereby visits its other tasks there.
+  // place, the stops are those that take time or, if none does, one of them. When an agent
+  // visits its stops on a place, it also visits its other tasks there.
   std::vector<TaskIndex> stops = {};
 
   // True for an agent with neither a destination nor tasks. It may rest anywhere.

@@ -48,7 +48,7 @@ WORD = re.compile("|".join(rf"(?<![A-Za-z])(?:{words})(?![A-Za-z])" for words in
 EXCLUDED = ["*.csv", "*.html", "*.png", "*.svg", "*.gif", "*.xml", "*.scen", "*.map", "*.graphml", "*.pdf", "*.zst",
             "LICENSE*", "*/fonts/*", "tools/vda5050/grove_vda5050/schemas/*", "tests/fuzz/cases/*",
             "tests/structure/language_*"]
-LONGEST_LINE = 140  # limit for prose in documents
+MAX_LINE_LENGTH = 140  # limit for prose in documents
 
 
 @functools.cache
@@ -123,7 +123,7 @@ class Documents(unittest.TestCase):
 
     def test_prose_has_short_lines(self):
         long = [f"{name}:{number}: {len(line)} columns" for name, text in self.documents()
-                for number, line in prose(text) if len(line) > LONGEST_LINE and not line.startswith("|")
+                for number, line in prose(text) if len(line) > MAX_LINE_LENGTH and not line.startswith("|")
                 and " " in line.strip()]
         self.assertEqual(long, [])
 

@@ -20,7 +20,7 @@ void let_last_option_win(CLI::App& app);
 // inherit the settings.
 void prepare_program(CLI::App& app);
 
-// Parses the command line and thereby runs the command. Turns its exceptions into an exit code
+// Parses the command line, which runs the command. Turns its exceptions into an exit code
 // (commands.h), except that exceptions for internal failures propagate. Prints errors, help and the
 // version only if `prints_messages`; in an MPI run only one process should print. Calls `refused`
 // with the reason if bad usage, bad input, or a request for help or the version ended the program.

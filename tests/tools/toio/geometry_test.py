@@ -5,7 +5,7 @@ import unittest
 
 from grove_toio import geometry, rings
 from grove_driving.bad_input import BadInput
-from grove_toio.mat import BODY, LEAST_PITCH, MATS, RESERVE, make_grid
+from grove_toio.mat import BODY, MIN_PITCH, MATS, RESERVE, make_grid
 
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 
@@ -46,7 +46,7 @@ class Grids(unittest.TestCase):
         self.assertAlmostEqual(grid.cell(grid.centre((6, 1)))[0], 6)
 
     def test_cubes_at_the_ends_of_their_tolerances_do_not_touch(self):
-        for pitch in (LEAST_PITCH, 43.2, 50, 67):
+        for pitch in (MIN_PITCH, 43.2, 50, 67):
             grid = make_grid((0, 0, 1000, 1000), 5, 5, pitch)
             self.assertGreaterEqual(pitch - 2 * (grid.tolerance + RESERVE), BODY - 1e-9)
 

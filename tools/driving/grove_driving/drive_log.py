@@ -5,7 +5,7 @@ import json
 from .bad_input import BadInput
 
 FORMAT = "grove drive 1"
-LEAST_SECONDS = 0.1
+MIN_SECONDS = 0.1
 
 
 def open_log(path):
@@ -27,7 +27,7 @@ class ExecutionLog:
 
     def write(self, seconds, robot, at, angle, action, state):
         """Writes a line if the robot's action or state changed since its last line. Also writes one if only its
-        position or angle changed, but not within LEAST_SECONDS after its last line.
+        position or angle changed, but not within MIN_SECONDS after its last line.
 
         at: (x, y) in cells with y down, or in metres on a roadmap. angle: degrees clockwise from north, or None.
         """
@@ -37,6 +37,6 @@ class ExecutionLog:
         sample |= {"action": action, "state": state}
         then, before = self.last.get(robot, (-1.0, {}))
         changed = (before.get("action"), before.get("state")) != (action, state)
-        if changed or (sample != before and seconds - then >= LEAST_SECONDS - 1e-6):
+        if changed or (sample != before and seconds - then >= MIN_SECONDS - 1e-6):
             self.last[robot] = seconds, sample
             self._line({"t": round(seconds, 3), "robot": robot, **sample})

@@ -15,7 +15,7 @@ TITLE = 0.4  # height of two lines, inches
 LEFT, RIGHT = 0.46, 0.06
 DIGITS = 0.13  # additional left margin for numbers of four digits, inches
 RUN_DASHES = [pattern for pattern in DASHES if pattern[0] > 2]  # without dotted patterns, which are for bounds
-MOST_STEPS = 300  # maximum number of steps that are drawn per curve
+MAX_STEPS = 300  # maximum number of steps that are drawn per curve
 
 ANYTIME_CAPTION = (
     "Cost ratio: cost / best known cost, mean over the common instances (all methods end with a plan). Thin: while "
@@ -92,7 +92,7 @@ def _finish(figure, axes, used, lines, looks):
     add_legend(figure, lines, looks, nested=False)
 
 
-def _thin(points, most=MOST_STEPS):
+def _thin(points, most=MAX_STEPS):
     """Thins out more than `most` points: keeps the first, and the last in each small interval of a log axis."""
     if len(points) <= most:
         return points

@@ -17,7 +17,7 @@ from .cells import read_cell_order, size
 from .clock import VirtualLoop
 from .driver import Driver
 from .mat import MATS, MM, make_grid
-from .protocol import LEAST_SPEED, MOST_SPEED
+from .protocol import MIN_SPEED, MAX_SPEED
 from .simulate import simulate
 from .simulated import Disturbances
 
@@ -62,7 +62,7 @@ def _noise(text):
 
 
 def _speed(text):
-    return integer(text, LEAST_SPEED, MOST_SPEED, f"an integer from {LEAST_SPEED} to {MOST_SPEED}")
+    return integer(text, MIN_SPEED, MAX_SPEED, f"an integer from {MIN_SPEED} to {MAX_SPEED}")
 
 
 def _cells(text):

@@ -25,8 +25,8 @@ MM = 1.36
 CUBE = 32 / MM
 BODY = CUBE * math.sqrt(2)
 RESERVE = 2.0
-LEAST_TOLERANCE, MOST_TOLERANCE = 2.0, 4.0
-LEAST_PITCH = BODY + 2 * (RESERVE + LEAST_TOLERANCE)
+MIN_TOLERANCE, MAX_TOLERANCE = 2.0, 4.0
+MIN_PITCH = BODY + 2 * (RESERVE + MIN_TOLERANCE)
 
 # Top left and bottom right corners, from the page "Position ID" of the specification. The corners for the twelve
 # development sheets (three columns of four) are from the toio SDK for Unity.
@@ -53,7 +53,7 @@ class Grid(NamedTuple):
 
     @property
     def tolerance(self):
-        return min(MOST_TOLERANCE, (self.pitch - BODY) / 2 - RESERVE)
+        return min(MAX_TOLERANCE, (self.pitch - BODY) / 2 - RESERVE)
 
 
 def make_grid(mat, width, height, pitch=None):
@@ -62,9 +62,9 @@ def make_grid(mat, width, height, pitch=None):
     room = min((x1 - x0) / width, (y1 - y0) / height)
     size = f"{x1 - x0:g} x {y1 - y0:g} units"
     pitch = room if pitch is None else pitch
-    if pitch < LEAST_PITCH:
+    if pitch < MIN_PITCH:
         raise BadInput(f"--mat: found {size} for {width} x {height} cells, {pitch:.1f} units each; expected at least "
-                       f"{LEAST_PITCH:.1f} so that cubes do not touch (a larger --mat, or fewer --cells)")
+                       f"{MIN_PITCH:.1f} so that cubes do not touch (a larger --mat, or fewer --cells)")
     if (width - 1) * pitch + BODY > x1 - x0 or (height - 1) * pitch + BODY > y1 - y0:
         raise BadInput(f"--pitch: found {pitch:g}; expected at most {room:.1f} for {width} x {height} cells on {size}")
     left, top = (x0 + x1 - (width - 1) * pitch) / 2, (y0 + y1 - (height - 1) * pitch) / 2

@@ -104,7 +104,7 @@ class SimulatedCube:
     def _receive_journey(self, journey, now):
         driving = _Driving(journey, now, self.random.uniform(2, protocol.REACHED_BOX))
         first = journey.targets[0]
-        if journey.speed < protocol.LEAST_SPEED:
+        if journey.speed < protocol.MIN_SPEED:
             self._respond(driving, protocol.UNSUPPORTED)
         elif first.x == first.y == protocol.SAME and first.rotation in (protocol.NO_ROTATION, protocol.SAME_ANGLE):
             self._respond(driving, protocol.BAD_PARAMETERS)
@@ -201,7 +201,7 @@ class SimulatedCube:
 
     @staticmethod
     def _spin(speed, off):
-        turning = max(protocol.LEAST_SPEED, min(speed, speed * abs(off) / EASE_ANGLE))
+        turning = max(protocol.MIN_SPEED, min(speed, speed * abs(off) / EASE_ANGLE))
         return (turning, -turning) if off > 0 else (-turning, turning)
 
     def _way_speeds(self, driving, dx, dy):
@@ -212,7 +212,7 @@ class SimulatedCube:
             driving.aligned = abs(off) < (25 if driving.aligned else 4)
             if not driving.aligned:
                 return self._spin(speed, off)
-        onwards = max(protocol.LEAST_SPEED, min(speed, speed * math.hypot(dx, dy) / EASE_WAY))
+        onwards = max(protocol.MIN_SPEED, min(speed, speed * math.hypot(dx, dy) / EASE_WAY))
         steer = max(-0.5, min(0.5, off / 40)) * onwards
         return onwards + steer, onwards - steer
 

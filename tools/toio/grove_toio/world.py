@@ -9,7 +9,7 @@ from .mat import BODY, MM
 
 TICK = 0.01
 SPREAD = 12                 # maximum distance per axis at which a hand puts a cube back, units
-MOST_TICKS = 20             # maximum number of late ticks that are run at once on a busy machine
+MAX_TICKS = 20              # maximum number of late ticks that are run at once on a busy machine
 
 
 class Lift:
@@ -46,7 +46,7 @@ class World:
         while True:
             await asyncio.sleep(TICK)
             now = loop.time()
-            for _ in range(min(MOST_TICKS, round((now - then) / TICK) or 1)):
+            for _ in range(min(MAX_TICKS, round((now - then) / TICK) or 1)):
                 self.tick(TICK, now, now - begin)
             then = now
 
