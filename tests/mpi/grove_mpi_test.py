@@ -5,6 +5,7 @@ import contextlib
 import csv
 import json
 import os
+import re
 import shlex
 import signal
 import subprocess
@@ -319,12 +320,16 @@ class Faults(Program):
         self.assertEqual(self.plan()["status"], "optimal")
         self.run_well([GROVE, "check", instance, "plan.json"])
 
+    def logged_events(self):
+        """Returns the letters of the events in the log so far."""
+        return set(re.findall(r"^([*HCLJB]) +\d", text_of(self.folder / "log"), re.MULTILINE))
+
     def check_end_without_rank(self, stopped, instance, more):
         """Asserts that an interrupted search ends although one rank remains stopped."""
         running = start(mpirun(3, "solve", instance, "--omega", 0, "--threads", 1, "--log", "log",
                                "--output", "plan.json", *more), self.folder)
         ranks = self.searching_ranks(running)
-        wait_until("a bound", lambda: "\nB " in text_of(self.folder / "log"), running)
+        wait_until("a plan and a bound", lambda: {"B"} < self.logged_events(), running)
         self.stop(ranks[stopped])
         os.kill(ranks[0], signal.SIGTERM)
         output, _ = running.communicate()
