@@ -21,7 +21,7 @@
 #include "mpi/remote_bounds.h"
 #include "mpi/transport.h"
 #include "planning/agent_stops_cache.h"
-#include "search/problem.h"
+#include "planning/problem.h"
 #include "search/tree_record.h"
 
 namespace grove::detail {

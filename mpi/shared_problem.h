@@ -7,7 +7,7 @@
 
 #include "model/shared_arrays.h"
 #include "mpi/shared_memory.h"
-#include "search/problem.h"
+#include "planning/problem.h"
 
 namespace grove::detail {
 

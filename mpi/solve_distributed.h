@@ -10,7 +10,7 @@
 #include "engine/run_observer.h"
 #include "engine/solve.h"
 #include "mpi/transport.h"
-#include "search/problem.h"
+#include "planning/problem.h"
 
 namespace grove::detail {
 

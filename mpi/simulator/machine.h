@@ -16,7 +16,7 @@ struct Machine {
   double bandwidth = 1e9;            // bytes per second, including serialization
   double message_cost = 2e-6;        // seconds
   double poll = kMaxPollInterval_s;  // seconds: maximum interval between two polls
-  // Seconds that a work item takes per unit of effort (search/work.h). 0: a work item takes the
+  // Seconds that a work item takes per unit of effort (model/effort.h). 0: a work item takes the
   // processor time that it took in the simulation, so simulations are not repeatable.
   double seconds_per_work = 0;
 };

@@ -38,7 +38,7 @@ class SimulatedWorker {
  public:
   struct Tally {
     std::int64_t turns = 0;
-    double work = 0;          // effort; see search/work.h
+    double work = 0;          // effort; see model/effort.h
     double busy_s = 0;        // simulated seconds
     double processor_s = 0;   // real processor time
     double first_turn_s = 0;  // start of the first work item, if any, in simulated seconds

@@ -8,7 +8,7 @@
 #include "engine/solve.h"
 #include "mpi/simulator/machine.h"
 #include "mpi/simulator/simulated_worker.h"
-#include "search/problem.h"
+#include "planning/problem.h"
 
 namespace grove::detail {
 

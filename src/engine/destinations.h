@@ -8,7 +8,7 @@
 
 #include "model/limits.h"
 #include "model/plan.h"
-#include "search/problem.h"
+#include "planning/problem.h"
 
 namespace grove::detail {
 

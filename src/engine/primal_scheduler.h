@@ -13,7 +13,7 @@ struct TreeOutlook {
   bool gap_is_large = false;  // the gap exceeds large_gap
 };
 
-// Counts effort (search/work.h), not seconds, so that a run is repeatable. The rule is at the head
+// Counts effort (model/effort.h), not seconds, so that a run is repeatable. The rule is at the head
 // of the .cpp. One thread at a time.
 class PrimalScheduler {
  public:

@@ -24,9 +24,9 @@
 #include "execution/advance.h"
 #include "model/assert.h"
 #include "model/check.h"
+#include "planning/problem.h"
 #include "primal/repair.h"
 #include "search/feasibility.h"
-#include "search/problem.h"
 
 namespace grove::detail {
 namespace {

@@ -18,7 +18,7 @@ namespace grove::detail {
 
 class CheckpointReader;  // engine/checkpoint.h
 class RunObserver;       // engine/run_observer.h
-struct Problem;          // search/problem.h
+struct Problem;          // planning/problem.h
 
 // The part of the agents' sequences that a tree of the forest fixes.
 enum class Policy : std::uint8_t {

@@ -42,7 +42,7 @@ class Worker {
     std::optional<Plan> plan;
     Cost proven = 0;  // bound by the joint search; see SharedBounds::prove()
     LagrangianBound::Job lagrangian;
-    std::int64_t work = 0;   // effort; see search/work.h
+    std::int64_t work = 0;   // effort; see model/effort.h
     ExpansionCounts counts;  // counts added by this item
   };
 

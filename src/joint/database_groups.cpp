@@ -8,7 +8,7 @@ namespace grove::detail {
 namespace {
 
 // Maximum entries of one database made before the search, and maximum effort of all of these
-// (search/work.h).
+// (model/effort.h).
 constexpr std::size_t kMaxEntries = std::size_t{1} << 18;
 constexpr std::int64_t kMaxTableWork = 4'000'000;
 // Maximum entries of one late database, and maximum number of agents with which there are late

@@ -37,7 +37,7 @@ class DatabaseGroups {
   // false if a limit was reached.
   bool make_next(const Limits& limits);
   // is_late_due(): whether there is a late database to make and it, together with all databases
-  // made so far, takes at most the effort `of_search` (unit of search/work.h). make_late(): makes
+  // made so far, takes at most the effort `of_search` (unit of model/effort.h). make_late(): makes
   // it; returns false if a limit was reached.
   bool is_late_due(std::int64_t of_search) const;
   bool make_late(const Limits& limits);
@@ -48,7 +48,7 @@ class DatabaseGroups {
   Cost excess(const Node* nodes);
 
   // Number of databases made, their bytes, and the effort of making them in the unit of
-  // search/work.h.
+  // model/effort.h.
   std::size_t count() const { return databases_.size(); }
   std::size_t bytes() const { return bytes_; }
   std::int64_t work() const { return work_; }

@@ -41,6 +41,7 @@
 #include <utility>
 
 #include "joint/database_groups.h"
+#include "model/effort.h"
 #include "model/plan.h"
 
 namespace grove::detail {
@@ -50,7 +51,6 @@ using Node = AgentGraph::Node;
 using Index = std::uint32_t;
 constexpr Index kNone = std::numeric_limits<Index>::max();
 constexpr std::int64_t kStatesPerPoll = 256;
-constexpr std::int64_t kMadePerWork = 2;  // joint states generated per unit of search/work.h
 
 }  // namespace
 
@@ -76,7 +76,7 @@ class EpeaStar::Search {
     if (groups_.is_early_due())
       return make_database(limits) ? Outcome::kWorking : Outcome::kTooLarge;
     // Late databases take at most half of the effort.
-    if (groups_.is_late_due(generated_ / kMadePerWork))
+    if (groups_.is_late_due(generated_ / effort::kJointStates))
       return groups_.make_late(limits) ? Outcome::kWorking : Outcome::kTooLarge;
     for (; states > 0 && !paths_; --states) {
       const Index state = pop();
@@ -107,7 +107,7 @@ class EpeaStar::Search {
     return plan;
   }
   std::int64_t states() const { return states_; }
-  std::int64_t work() const { return groups_.work() + generated_ / kMadePerWork; }
+  std::int64_t work() const { return groups_.work() + generated_ / effort::kJointStates; }
 
  private:
   static constexpr std::int8_t kNoAgent = -1;

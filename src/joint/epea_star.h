@@ -51,7 +51,7 @@ class EpeaStar {
   // nullopt until the search has found it.
   const std::optional<std::vector<Path>>& paths() const;
   std::optional<Plan> plan() const;
-  // Joint states expanded, and total effort in the unit of search/work.h.
+  // Joint states expanded, and total effort in the unit of model/effort.h.
   std::int64_t states() const;
   std::int64_t work() const;
 

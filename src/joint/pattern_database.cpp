@@ -7,11 +7,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/effort.h"
+
 namespace grove::detail {
 namespace {
 
 using Node = AgentGraph::Node;
-constexpr std::int64_t kMovesPerWork = 20;  // combinations of moves per unit of search/work.h
 constexpr std::int64_t kSettledPerPoll = 1024;
 
 // The reversed moves of an agent.
@@ -148,7 +149,7 @@ std::size_t PatternDatabase::entries(std::span<const AgentGraph> agents,
 std::int64_t PatternDatabase::work(std::span<const AgentGraph> agents,
                                    std::span<const std::size_t> members) {
   const auto moves = [](const AgentGraph& a) { return static_cast<std::int64_t>(a.move_count()); };
-  return product<std::int64_t>(members, moves, agents) / kMovesPerWork;
+  return product<std::int64_t>(members, moves, agents) / effort::kMoveTuples;
 }
 
 std::optional<PatternDatabase> PatternDatabase::make(const Instance& instance,

@@ -24,7 +24,7 @@ class PatternDatabase {
 
   // `members`: positions in `agents`, ascending. make(): makes the database for these agents;
   // returns nullopt if a limit was reached. entries(): its size in bytes. work(): the effort of
-  // making it, in the unit of search/work.h.
+  // making it, in the unit of model/effort.h.
   static std::optional<PatternDatabase> make(const Instance& instance,
                                              std::span<const AgentGraph> agents,
                                              std::vector<std::size_t> members,

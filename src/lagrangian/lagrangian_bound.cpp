@@ -33,6 +33,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/effort.h"
+
 namespace grove::detail {
 namespace {
 
@@ -40,7 +42,6 @@ constexpr int kMaxStops = 10;
 constexpr std::size_t kMaxMarkBytes = std::size_t{1} << 26;  // of one agent's search
 constexpr std::size_t kBytesOfMark = 16;
 constexpr std::int64_t kFirstLabels = 2000;               // per agent, assumed before its first job
-constexpr std::int64_t kStepsPerWork = 32;                // path steps counted per unit of work
 constexpr int kRoundsPerDualSolution = 4;                 // see store_dual_solution()
 constexpr double kMinDistance = 0.02 * Penalties::kUnit;  // a smaller level distance gains nothing
 
@@ -102,7 +103,7 @@ bool LagrangianBound::has_jobs() const {
 }
 
 std::optional<LagrangianBound::Job> LagrangianBound::next_value() {
-  const std::int64_t most = tuning_.lagrangian_step_work * kLabelsPerWork;
+  const std::int64_t most = tuning_.lagrangian_step_work * effort::kPricedLabels;
   std::int64_t labels = 0;
   Job job;
   job.first = job.end = next_agent_;
@@ -156,7 +157,7 @@ void LagrangianBound::commit(Job job) {
   }
   for (AgentIndex agent = job.first; agent < job.end; ++agent) {
     const auto at = static_cast<std::size_t>(agent - job.first);
-    labels_[agent] = job.work * kLabelsPerWork / (job.end - job.first);
+    labels_[agent] = job.work * effort::kPricedLabels / (job.end - job.first);
     store_value(agent, job.values[at], std::move(job.paths[at]));
   }
   end_pricing_if_done();
@@ -227,13 +228,14 @@ std::vector<LagrangianBound::AgentRange> LagrangianBound::partition_agents() {
   const std::int64_t requests = std::min<std::int64_t>(idle, left / least - 1);
   if (requests <= 0) return cuts;
   const std::int64_t between = std::exchange(work_between_, 0);
-  const std::int64_t part = std::max(least, (left + between) / (requests + 1)) * kLabelsPerWork;
+  const std::int64_t part =
+      std::max(least, (left + between) / (requests + 1)) * effort::kPricedLabels;
   for (int helper = 0; std::ssize(cuts) < requests && next_agent_ < end_agent_; ++helper) {
     if (helpers_[static_cast<std::size_t>(helper)].is_awaiting_reply) continue;
     const AgentIndex end = end_agent_;
     std::int64_t labels = 0;
     while (labels < part && next_agent_ < end_agent_) labels += labels_[--end_agent_];
-    cuts.push_back({helper, end_agent_, end, labels / kLabelsPerWork});
+    cuts.push_back({helper, end_agent_, end, labels / effort::kPricedLabels});
   }
   return cuts;
 }
@@ -243,7 +245,7 @@ std::vector<LagrangianBound::AgentRange> LagrangianBound::partition_agents() {
 std::int64_t LagrangianBound::work_left() const {
   return std::accumulate(labels_.begin() + next_agent_, labels_.begin() + end_agent_,
                          std::int64_t{0}) /
-         kLabelsPerWork;
+         effort::kPricedLabels;
 }
 
 int LagrangianBound::accept(int helper, PricingReply answer) {
@@ -258,7 +260,7 @@ int LagrangianBound::accept(int helper, PricingReply answer) {
     throw std::invalid_argument("pricing result: was not requested");
   int counted = 0;
   for (AgentIndex i = 0; i < agents; ++i) {
-    labels_[answer.first + i] = answer.work * kLabelsPerWork / agents;
+    labels_[answer.first + i] = answer.work * effort::kPricedLabels / agents;
     counted += store_value(answer.first + i, answer.values[static_cast<std::size_t>(i)],
                            std::move(answer.paths[static_cast<std::size_t>(i)]));
   }
@@ -272,7 +274,7 @@ void LagrangianBound::end_round(Job& job, Cost cutoff, Cost known, const Limits&
   if (!is_counted_) {
     separate_conflict_rows();
     is_counted_ = true;
-    job.work += occupancy_.end() * instance_.agent_count() / kStepsPerWork;
+    job.work += occupancy_.end() * instance_.agent_count() / effort::kCountedSteps;
   }
   separate_finish_rows(job, limits);
   if (!colliding_.empty()) return;

@@ -51,7 +51,7 @@ class LagrangianBound {
   // A pricing request for a helper.
   struct DispatchedRequest {
     int helper;
-    std::int64_t work;  // expected effort, in the unit of search/work.h
+    std::int64_t work;  // expected effort, in the unit of model/effort.h
     PricingRequest request;
   };
   // Returns pricing requests for helpers without an outstanding request. Returns none if there is

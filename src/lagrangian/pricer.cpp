@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lagrangian/penalized_search.h"
+#include "model/effort.h"
 
 namespace grove::detail {
 namespace {
@@ -21,7 +22,7 @@ void Pricer::perform(PricingJob& job, const Limits& limits) {
     job.values.push_back(known == kNoCost ? first_value(agent, limits, path)
                                           : price_below(known, agent, limits, path));
     job.paths.push_back(std::move(path));
-    job.work += (search_.labels() - labels) / kLabelsPerWork + 1;
+    job.work += (search_.labels() - labels) / effort::kPricedLabels + 1;
   }
 }
 

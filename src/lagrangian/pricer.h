@@ -15,8 +15,6 @@
 
 namespace grove::detail {
 
-constexpr std::int64_t kLabelsPerWork = 2;  // labels per unit of work (search/work.h)
-
 // The agents `first`, ..., `end` - 1, and their results with one entry per agent.
 struct PricingJob {
   AgentIndex first = 0;
@@ -24,7 +22,7 @@ struct PricingJob {
   std::vector<ScaledCost> known;  // penalised cost of a known path; kNoCost: none
   std::vector<ScaledCost> values;
   std::vector<Path> paths;  // empty: no path cheaper than `known` was found
-  std::int64_t work = 0;    // effort, in the unit of search/work.h
+  std::int64_t work = 0;    // effort, in the unit of model/effort.h
   bool failed = false;      // memory ran out or a penalty was too great: the results are not valid
 };
 

@@ -11,7 +11,7 @@
 #include "model/limits.h"
 #include "model/plan.h"
 #include "model/tuning.h"
-#include "search/problem.h"
+#include "planning/problem.h"
 #include "sequencing/sequence.h"
 
 namespace grove::detail {

@@ -51,7 +51,7 @@ class LargeNeighborhoodSearch {
     int inflation_percent;
     bool priced;
     double gain = 0;                     // total cost reduction
-    double work = 1;                     // effort (unit: search/work.h)
+    double work = 1;                     // effort (unit: model/effort.h)
     double labels = 0;                   // number of labels of calls that found a path
     double found = 0;                    // number of calls that found a path
     std::int64_t first_labels = 20'000;  // label limit of a call until one finds a path

@@ -8,9 +8,9 @@
 
 #include "model/random.h"
 #include "model/tuning.h"
+#include "planning/problem.h"
 #include "primal/planned_paths.h"
 #include "primal/primal_low_level.h"
-#include "search/problem.h"
 
 namespace grove::detail {
 

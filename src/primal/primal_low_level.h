@@ -9,10 +9,10 @@
 
 #include "lagrangian/dual_solution.h"
 #include "lagrangian/pricer.h"
+#include "model/effort.h"
 #include "planning/agent_stops_cache.h"
 #include "planning/free_order_sipp.h"
-#include "search/problem.h"
-#include "search/work.h"
+#include "planning/problem.h"
 
 namespace grove::detail {
 
@@ -62,7 +62,7 @@ class PrimalLowLevel {
   std::int64_t expanded() const { return low_level_.expanded(); }
   std::int64_t work() const {
     const std::int64_t labels = labels_before_ + (priced_ ? priced_->labels() : 0);
-    return expanded() + labels / kLabelsPerWork + work::kPerCall * calls_;
+    return expanded() + labels / effort::kPricedLabels + effort::kUnitsPerCall * calls_;
   }
 
  private:

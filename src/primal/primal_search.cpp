@@ -60,6 +60,7 @@
 #include <vector>
 
 #include "model/assert.h"
+#include "model/effort.h"
 #include "model/random.h"
 #include "primal/lacam_with_restarts.h"
 #include "primal/lns.h"
@@ -68,7 +69,6 @@
 #include "primal/prioritized_planning.h"
 #include "primal/traffic_guided_lacam.h"
 #include "primal/visit_orders.h"
-#include "search/work.h"
 
 namespace grove::detail {
 namespace {
@@ -137,7 +137,8 @@ class PrimalSearch::Impl {
     return individually_planned_ == agents_ && own_costs_are_minimal_ && best_ <= own_costs_;
   }
   std::int64_t work() const {
-    return low_level_.work() + (paths_.steps_moved() + planned_.steps_moved()) / work::kStepsMoved +
+    return low_level_.work() +
+           (paths_.steps_moved() + planned_.steps_moved()) / effort::kMovedSteps +
            joint_steps_ * agents_ + guided_work_;
   }
   std::int64_t work_at_last_plan() const { return work_at_last_plan_; }

@@ -11,8 +11,8 @@
 #include "model/plan.h"
 #include "model/tuning.h"
 #include "planning/agent_stops_cache.h"
+#include "planning/problem.h"
 #include "primal/plan_source.h"
-#include "search/problem.h"
 #include "search/techniques.h"
 
 namespace grove::detail {
@@ -70,7 +70,7 @@ class PrimalSearch {
   // agent's optimal path without the other agents.
   bool optimal() const;
 
-  // Effort spent so far (unit: search/work.h).
+  // Effort spent so far (unit: model/effort.h).
   std::int64_t work() const;
   // Value of work() at which the last better plan was found.
   std::int64_t work_at_last_plan() const;

@@ -9,7 +9,7 @@
 #include "model/limits.h"
 #include "model/plan.h"
 #include "planning/agent_stops_cache.h"
-#include "search/problem.h"
+#include "planning/problem.h"
 
 namespace grove::detail {
 

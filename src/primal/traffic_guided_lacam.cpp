@@ -21,7 +21,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "search/work.h"
+#include "model/effort.h"
 
 namespace grove::detail {
 
@@ -48,7 +48,7 @@ void TrafficGuidedLacam::learn(const Plan& plan) {
   for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent) {
     const Path path = walked_path(problem_.instance, agent, plan.agents[agent]);
     traffic_.add(path, weight);
-    work_ += static_cast<std::int64_t>(path.size()) / work::kStepsMoved;
+    work_ += static_cast<std::int64_t>(path.size()) / effort::kMovedSteps;
   }
   traffic_.update_edge_costs();
   next_field_ = fields_.begin();
@@ -70,7 +70,7 @@ bool TrafficGuidedLacam::make_field(const Limits& limits) {
   const std::size_t bytes = states * sizeof(Time);
   if (limits.stop_requested() || (field.empty() && !limits.memory_allows(2 * bytes))) return false;
   field = traffic_.field(distance);
-  work_ += static_cast<std::int64_t>(states) / work::kStatesPriced;
+  work_ += static_cast<std::int64_t>(states) / effort::kFieldStates;
   return true;
 }
 

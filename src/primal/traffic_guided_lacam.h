@@ -12,9 +12,9 @@
 #include "model/limits.h"
 #include "model/plan.h"
 #include "model/tuning.h"
+#include "planning/problem.h"
 #include "primal/lacam.h"
 #include "primal/traffic.h"
-#include "search/problem.h"
 #include "sequencing/sequence.h"
 
 namespace grove::detail {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "search/problem.h"
+#include "planning/problem.h"
 #include "sequencing/sequence.h"
 
 namespace grove::detail {

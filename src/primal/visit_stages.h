@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "search/problem.h"
+#include "planning/problem.h"
 #include "sequencing/sequence.h"
 #include "sequencing/stop_set_index.h"
 

@@ -12,7 +12,7 @@
 #include <functional>
 #include <numeric>
 
-#include "search/work.h"
+#include "model/effort.h"
 
 namespace grove::detail {
 namespace {
@@ -61,7 +61,7 @@ Expander::Expander(const Problem& problem, AgentStopsCache& stops, const SearchO
 
 void Expander::enter(const NodePtr& node) {
   view_.enter(node, all_);
-  work_on_nodes_ += node->cost() / work::kStepsSeen + 1;
+  work_on_nodes_ += node->cost() / effort::kScannedSteps + 1;
 }
 
 Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limits,
@@ -151,11 +151,11 @@ Plan Expander::plan(const Node& node) {
 double Expander::whole_work() const {
   const ExpansionCounts done = counts();
   return static_cast<double>(planner_.work() + done.group_work) +
-         work::kPerOptimalNode * static_cast<double>(done.mdd_nodes) +
-         work::kPerJointPair * static_cast<double>(done.joint_mdd_nodes) +
-         work::kPerSubproblem * static_cast<double>(done.subproblems) +
-         work::kPerGroup * static_cast<double>(done.groups) +
-         work::kPerStepSeen * static_cast<double>(done.path_steps);
+         effort::kPerOptimalNode * static_cast<double>(done.mdd_nodes) +
+         effort::kPerJointPair * static_cast<double>(done.joint_mdd_nodes) +
+         effort::kPerSubproblem * static_cast<double>(done.subproblems) +
+         effort::kPerGroup * static_cast<double>(done.groups) +
+         effort::kPerStepSeen * static_cast<double>(done.path_steps);
 }
 
 ExpansionCounts Expander::counts() const {

@@ -42,7 +42,7 @@ struct ExpansionCounts {
   std::int64_t mdd_nodes = 0;        // MddBuilder::nodes(), and nodes that FewestConflicts searched
   std::int64_t joint_mdd_nodes = 0;  // pairs of MDD nodes compared (joint MDDs)
   std::int64_t group_states = 0;     // states expanded by joint search of pairs and groups
-  std::int64_t group_work = 0;       // effort of joint search, in the unit of work.h
+  std::int64_t group_work = 0;       // effort of joint search, in the unit of model/effort.h
   std::int64_t subproblems = 0;      // look-ups of subproblems
   std::int64_t groups = 0;           // groups compared in full or looked up
   std::int64_t path_steps = 0;       // path steps searched for conflicts
@@ -88,8 +88,8 @@ class Expander {
   bool help(const NodePtr& node, Cost cutoff, double share, const Limits& limits);
 
   ExpansionCounts counts() const;
-  // Effort so far, in the unit of work.h. work() counts the part by which the engine balances tree
-  // search and primal search; whole_work() counts all of it.
+  // Effort so far, in the unit of model/effort.h. work() counts the part by which the engine
+  // balances tree search and primal search; whole_work() counts all of it.
   std::int64_t work() const {
     return planner_.work() + dependencies_.joint_groups().work() + work_on_nodes_;
   }

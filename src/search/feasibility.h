@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "search/problem.h"
+#include "planning/problem.h"
 
 namespace grove::detail {
 

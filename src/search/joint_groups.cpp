@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "joint/epea_star.h"
+#include "model/effort.h"
 #include "model/omega.h"
 
 namespace grove::detail {
@@ -34,13 +35,12 @@ namespace {
 constexpr std::size_t kMaxAgentGraphNodes = 32'000;
 
 constexpr std::int64_t kStatesAtOnce = 16;
-constexpr std::int64_t kTimedNodesPerWork = 2;  // see work.h
 constexpr std::size_t kMaxBytes = std::size_t{1} << 28;
 
 }  // namespace
 
 std::int64_t JointGroups::work() const {
-  return joint_work_ + planner_.timed_nodes() / kTimedNodesPerWork;
+  return joint_work_ + planner_.timed_nodes() / effort::kTimedNodes;
 }
 
 bool JointGroups::solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,

@@ -34,7 +34,7 @@ class JointGroups {
              const Limits& limits, ExcessBound& known);
 
   // Joint states expanded so far, and the effort of all calls, including all time-expanded graphs
-  // of the planner, in the unit of search/work.h.
+  // of the planner, in the unit of model/effort.h.
   std::int64_t states() const { return states_; }
   std::int64_t work() const;
 

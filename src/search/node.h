@@ -15,9 +15,9 @@
 #include "model/assert.h"
 #include "model/omega.h"
 #include "planning/goal_sequence.h"
+#include "planning/problem.h"
 #include "search/node_pool.h"
 #include "search/packed_path.h"
-#include "search/problem.h"
 #include "sequencing/rtsp.h"
 
 namespace grove::detail {

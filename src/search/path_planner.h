@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "joint/time_expanded_graphs.h"
+#include "model/effort.h"
 #include "planning/agent_planner.h"
 #include "planning/agent_stops_cache.h"
 #include "planning/fixed_order_sipp.h"
 #include "planning/mdd.h"
 #include "search/node.h"
-#include "search/work.h"
 
 namespace grove::detail {
 
@@ -54,8 +54,8 @@ class PathPlanner {
   std::int64_t mdd_nodes() const { return mdd_builder_.nodes(); }
   // Nodes of time-expanded graphs expanded so far.
   std::int64_t timed_nodes() const { return timed_graphs_.nodes(); }
-  // Effort of calls and labels; see work.h.
-  std::int64_t work() const { return expanded() + work::kPerCall * calls_; }
+  // Effort of calls and labels; see model/effort.h.
+  std::int64_t work() const { return expanded() + effort::kUnitsPerCall * calls_; }
 
  private:
   SequenceStages& free_goals(AgentIndex agent, const AgentSequencing& order);

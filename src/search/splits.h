@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "conflicts/conflict.h"
-#include "search/problem.h"
+#include "planning/problem.h"
 #include "search/techniques.h"
 
 namespace grove::detail {

@@ -20,7 +20,7 @@
 #include "model/check.h"
 #include "mpi/messages.h"
 #include "mpi/solve_distributed.h"
-#include "search/problem.h"
+#include "planning/problem.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/clocks.h"
 

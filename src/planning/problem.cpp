@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "search/problem.h"
+#include "planning/problem.h"
 
 #include "sequencing/cost_to_go.h"
 

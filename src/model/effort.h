@@ -7,13 +7,20 @@
 
 // Effort is counted, not timed, so that a run can be repeated exactly. One unit is about one
 // expanded label of the low level. Other operations count at the following rates.
-namespace grove::detail::work {
+namespace grove::detail::effort {
 
-// Rates for dividing the effort between tree search and primal search.
-inline constexpr std::int64_t kPerCall = 16;      // units per low-level call, besides its labels
-inline constexpr std::int64_t kStepsSeen = 4;     // path steps searched for conflicts, per unit
-inline constexpr std::int64_t kStepsMoved = 8;    // path steps added or removed in tables, per unit
-inline constexpr std::int64_t kStatesPriced = 5;  // states of a congestion distance field, per unit
+// Rates for dividing the effort between the components of the engine.
+inline constexpr std::int64_t kUnitsPerCall = 16;  // of the low level, besides its labels
+
+// Operations of which this number counts as one unit.
+inline constexpr std::int64_t kScannedSteps = 4;   // path steps searched for conflicts
+inline constexpr std::int64_t kMovedSteps = 8;     // path steps added to or removed from tables
+inline constexpr std::int64_t kFieldStates = 5;    // states of a congestion distance field
+inline constexpr std::int64_t kTimedNodes = 2;     // nodes of time-expanded graphs
+inline constexpr std::int64_t kJointStates = 2;    // generated joint states
+inline constexpr std::int64_t kMoveTuples = 20;    // joint moves tried for a pattern database
+inline constexpr std::int64_t kPricedLabels = 2;   // labels of a search under multipliers
+inline constexpr std::int64_t kCountedSteps = 32;  // path steps counted between pricing rounds
 
 // Rates that estimate the duration of an expansion: labels and calls as above, and the other
 // operations in ExpansionCounts. Fitted by regression to the processor time of single expansions.
@@ -28,4 +35,4 @@ inline constexpr double kPerSubproblem = 2;
 inline constexpr double kPerGroup = 1.7;
 inline constexpr double kPerStepSeen = 0.15;
 
-}  // namespace grove::detail::work
+}  // namespace grove::detail::effort
