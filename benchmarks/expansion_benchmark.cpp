@@ -96,9 +96,9 @@ void BM_Expansions(benchmark::State& state) {
   state.counters["bytes_per_node"] =
       (static_cast<double>(resident_bytes()) - memory_before) / nodes;
   state.counters["node_bytes"] = search.node_bytes();  // memory for nodes and their paths
-  const ExpansionCounts counts = search.counts();
-  state.counters["labels_per_call"] =
-      static_cast<double>(counts.low_level_expanded) / static_cast<double>(counts.low_level_calls);
+  const Counters counts = search.counts().reported;
+  state.counters["labels_per_call"] = static_cast<double>(counts[Counter::kLowLevelExpanded]) /
+                                      static_cast<double>(counts[Counter::kLowLevelCalls]);
   state.SetLabel(files.map.filename().string());
 }
 BENCHMARK(BM_Expansions)

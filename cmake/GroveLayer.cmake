@@ -55,10 +55,10 @@ endfunction()
 
 # grove_layer(<name> [HOT | COLD] [DEPENDS <layer> ...] [LINK_PUBLIC ...] [LINK_PRIVATE ...])
 # Defines one layer of the design as the static library grove_<name>, alias grove::<name>, from the headers and
-# sources in src/<name>/. `cmake --build --preset release --target grove_<name>` builds only this layer.
+# sources in src/<name>/ and its directory components/, if any. `cmake --build --preset release --target grove_<name>` builds only this layer.
 function(grove_layer name)
   cmake_parse_arguments(LAYER "" "" "DEPENDS;LINK_PUBLIC;LINK_PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS *.cpp components/*.cpp)
   add_library(grove_${name} STATIC ${sources})
   add_library(grove::${name} ALIAS grove_${name})
   target_include_directories(grove_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)

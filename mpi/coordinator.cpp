@@ -60,7 +60,7 @@
 // *Remote pricing.* Rank 0 computes the Lagrangian bound in addition to searching its nodes. It
 // requests subproblem values under its multipliers from other ranks. Each request is for some of
 // the agents; a rank gets the next request after it has replied. Rank 0 drops a reply that is late
-// or has other multipliers (lagrangian_bound.cpp), and computes missing values itself. Therefore no
+// or has other multipliers (remote_pricing.cpp), and computes missing values itself. Therefore no
 // part of this protocol waits for subproblem values, and no bound depends on their order of
 // arrival. Rank 0 reports the bounds that it proves by these values in its statuses.
 //
@@ -263,9 +263,9 @@ RunStatistics Coordinator::received_statistics() const {
 
 RunStatistics Coordinator::statistics() const {
   RunStatistics statistics = received_statistics();
-  Stats of_plans;
+  Counters of_plans;
   run_.shared_bounds().add_counts(of_plans);
-  for (const auto& [key, count] : of_plans.counts) statistics.whole.counts[key] += count;
+  add(of_plans, statistics.whole.counts);
   statistics.rank_count = transport_.ranks();
   return statistics;
 }

@@ -53,45 +53,12 @@ void serialize(Archive& archive, RunStatistics& statistics) {
   archive(statistics.whole, statistics.ranks);
 }
 
-template <class Archive, class Enum>
-void enumerated(Archive& archive, Enum& value, Enum last) {
-  auto number = static_cast<std::uint8_t>(value);
-  archive(number);
-  if (number > static_cast<std::uint8_t>(last)) throw cereal::Exception("message: unknown kind");
-  value = static_cast<Enum>(number);
-}
-
-template <class Archive>
-void serialize(Archive& archive, RelaxedRow& row) {
-  enumerated(archive, row.kind, RelaxedRow::Kind::kFinish);
-  archive(row.a, row.b, row.time, row.time_b);
-}
-
-template <class Archive>
-void serialize(Archive& archive, MultiplierUpdate& update) {
-  archive(update.rows, update.multipliers);
-}
-
-template <class Archive>
-void serialize(Archive& archive, PricingRequest& request) {
-  archive(request.round, request.first, request.known, request.update);
-}
-
-template <class Archive>
-void serialize(Archive& archive, PricingReply& answer) {
-  archive(answer.round, answer.digest, answer.first, answer.values, answer.paths, answer.work);
-}
-
 namespace message {
 
 template <class Archive>
-void serialize(Archive& archive, RequestPricing& ask) {
-  archive(ask.request);
-}
-
-template <class Archive>
-void serialize(Archive& archive, PricingDone& reply) {
-  archive(reply.answer);
+void serialize(Archive& archive, ForComponent& f) {
+  enumerated(archive, f.message.component, kLastComponent);
+  archive(f.message.bytes);
 }
 
 template <class Archive>
@@ -112,7 +79,7 @@ void serialize(Archive& archive, BatchReceived& taken) {
 template <class Archive>
 void serialize(Archive& archive, Status& s) {
   archive(s.bound, s.evicted_bound, s.proven, s.live, s.open, s.expanded, s.epoch, s.assigned);
-  enumerated(archive, s.proven_by, kLastProvenBy);
+  enumerated(archive, s.proven_by, kLastComponent);
   enumerated(archive, s.stopped, StopReason::kInterrupt);
   archive(s.surplus, s.work_requests, s.taken);
 }

@@ -12,10 +12,10 @@
 #include <variant>
 #include <vector>
 
+#include "engine/component.h"
 #include "engine/run_statistics.h"
 #include "engine/serialize.h"
 #include "engine/shared_bounds.h"
-#include "lagrangian/pricer.h"
 #include "model/limits.h"
 #include "primal/plan_source.h"
 #include "search/group_bounds.h"
@@ -63,7 +63,7 @@ struct Status {
   Cost bound = kInfiniteCost;
   Cost evicted_bound = kInfiniteCost;
   Cost proven = 0;  // proven outside the tree search; see SharedBounds::prove
-  BoundSource proven_by = BoundSource::kJointSearch;
+  ComponentId proven_by{};
   bool live = false;  // true: some node is live
   std::int64_t open = 0;
   std::int64_t expanded = 0;
@@ -77,15 +77,9 @@ struct Status {
   friend bool operator==(const Status&, const Status&) = default;
 };
 
-// From rank 0 to a rank that has replied to all earlier requests: solve these pricing problems
-// before any other work.
-struct RequestPricing {
-  PricingRequest request;
-};
-
-// From a rank to rank 0: the reply to RequestPricing.
-struct PricingDone {
-  PricingReply answer;
+// From rank to rank: a message of a component of the engine to the same component there.
+struct ForComponent {
+  ComponentMessage message;
 };
 
 // To the parent: a plan to be checked.
@@ -196,8 +190,8 @@ struct MessageCounts {
 
 using Message =
     std::variant<Status, NewPlan, SnapshotTaken, SnapshotPart, ProcessStatistics,
-                 RankFinished,                                           // up
-                 NodeBatch, RequestPricing, PricingDone, LearnedBounds,  // from rank to rank
+                 RankFinished,                            // up
+                 NodeBatch, ForComponent, LearnedBounds,  // from rank to rank
                  NewTree, AssignNodes, SendNodes, ReleaseCustody, Incumbent, Restart,
                  SnapshotRequest, SnapshotNext, Heartbeat, Terminate, MessageCounts>;  // down
 

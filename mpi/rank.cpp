@@ -54,10 +54,10 @@ Rank::Rank(const Problem& problem, const SolveOptions& options, const Limits& li
       stops_(stops),
       trees_(problem, stops_, nodes_.pool),
       shared_bounds_(limits, nodes_.frontier),
-      search_(options, limits, nodes_, shared_bounds_, remote_trees_, unwatched_),
+      components_(problem, options, limits, stops_, nodes_, shared_bounds_, remote_trees_,
+                  unwatched_, {transport.rank(), transport.ranks()}),
       bound_broadcast_(transport.rank(), transport.ranks(),
                        options.tuning.bound_broadcast_rate * kBytesPerMegabyte) {
-  if (transport.rank() == 0) search_.lagrangian().set_ranks(transport.ranks());
   if (transport.ranks() > 1) favor_splitting();
 }
 
@@ -65,50 +65,45 @@ void Rank::handle(int from, message::Message&& message) {
   const auto unexpected = [](const auto&) {
     throw std::invalid_argument("rank: unexpected message type");
   };
-  std::visit(
-      Overloaded{[&](message::NodeBatch& batch) {
-                   ++received_messages_;
-                   receive_batch(from, batch);
-                 },
-                 [&](message::RequestPricing& ask) {
-                   ++received_messages_;
-                   search_.lagrangian().help(problem_.instance, std::move(ask.request));
-                 },
-                 [&](message::PricingDone& reply) {
-                   ++received_messages_;
-                   shared_bounds_.prove(search_.lagrangian().accept(from, std::move(reply.answer)),
-                                        BoundSource::kLagrangian);
-                 },
-                 [&](message::LearnedBounds& facts) {
-                   ++received_messages_;
-                   receive(facts);
-                 },
-                 [&](message::NewTree& tree) {
-                   const NodePtr& root = roots_[tree.number] = trees_.add(tree.tree, tree.number);
-                   trees_of_bounds_.add(root->tree());
-                   receive_deferred();
-                 },
-                 [&](message::AssignNodes& assigned) { accept(assigned); },
-                 [&](message::SendNodes& order) { send_nodes(order); },
-                 [&](message::ReleaseCustody& covered) { release(covered); },
-                 [&](message::Incumbent& incumbent) {
-                   const Cost cost = incumbent.plan.cost;
-                   shared_bounds_.adopt(std::move(incumbent.plan));
-                   nodes_.prune(cost);
-                 },
-                 [&](message::Restart& order) { restart(order.proven); },
-                 [&](message::SnapshotRequest&) { gather(); },
-                 [&](message::SnapshotNext&) { send_part(); }, [](message::Heartbeat&) {},
-                 [&](message::Terminate&) {
-                   ended_ = true;
-                   parent_.end_reports();
-                   shared_bounds_.end();
-                 },
-                 [&](message::MessageCounts& message_counts) {
-                   expected_messages_ = message_counts.messages[transport_.rank()];
-                 },
-                 unexpected},
-      message);
+  std::visit(Overloaded{[&](message::NodeBatch& batch) {
+                          ++received_messages_;
+                          receive_batch(from, batch);
+                        },
+                        [&](message::ForComponent& m) {
+                          ++received_messages_;
+                          components_.receive(from, m.message);
+                        },
+                        [&](message::LearnedBounds& facts) {
+                          ++received_messages_;
+                          receive(facts);
+                        },
+                        [&](message::NewTree& tree) {
+                          const NodePtr& root = roots_[tree.number] =
+                              trees_.add(tree.tree, tree.number);
+                          trees_of_bounds_.add(root->tree());
+                          receive_deferred();
+                        },
+                        [&](message::AssignNodes& assigned) { accept(assigned); },
+                        [&](message::SendNodes& order) { send_nodes(order); },
+                        [&](message::ReleaseCustody& covered) { release(covered); },
+                        [&](message::Incumbent& incumbent) {
+                          const Cost cost = incumbent.plan.cost;
+                          shared_bounds_.adopt(std::move(incumbent.plan));
+                          nodes_.prune(cost);
+                        },
+                        [&](message::Restart& order) { restart(order.proven); },
+                        [&](message::SnapshotRequest&) { gather(); },
+                        [&](message::SnapshotNext&) { send_part(); }, [](message::Heartbeat&) {},
+                        [&](message::Terminate&) {
+                          ended_ = true;
+                          parent_.end_reports();
+                          shared_bounds_.end();
+                        },
+                        [&](message::MessageCounts& message_counts) {
+                          expected_messages_ = message_counts.messages[transport_.rank()];
+                        },
+                        unexpected},
+             message);
 }
 
 // True if a tree of the batch has not arrived yet, or if the batch is of a later epoch, whose
@@ -146,7 +141,7 @@ void Rank::send_nodes(const message::SendNodes& order) {
   message::NodeBatch batch;
   batch.epoch = epoch_;
   for (const NodePtr& node : nodes) batch.nodes.push_back(record_of(*node));
-  batch.findings = group_bounds_of(nodes, *search_.memory());
+  batch.findings = group_bounds_of(nodes, *components_.memory().cache());
   Peer& peer = peers_[order.to];
   peer.custody[peer.sent + 1] = nodes;
   in_custody_ += std::ssize(nodes);
@@ -163,7 +158,7 @@ void Rank::send_nodes(const message::SendNodes& order) {
 // own descendants of the node.
 void Rank::favor_splitting() {
   cached_only_until_ = nodes_.expanded + kCachedOnlyNodes;
-  search_.set_bounding_effort(BoundingEffort::kCachedOnly);
+  components_.tree().set_bounding_effort(BoundingEffort::kCachedOnly);
 }
 
 // True if the rank must keep its best open node for its worker. False while a worker expands a
@@ -196,7 +191,7 @@ void Rank::push(const std::vector<NodeRecord>& records, const std::vector<GroupB
     const bool pruned = record.bound >= shared_bounds_.cutoff();
     nodes.push_back(pruned ? nullptr : node_of(record, root, problem_.instance));
   }
-  merge(findings, nodes, *search_.memory());
+  merge(findings, nodes, *components_.memory().cache());
   for (NodePtr& node : nodes)
     if (node) nodes_.push(std::move(node));
 }
@@ -268,8 +263,9 @@ bool Rank::is_wanted(Cost bound) const {
 // status is made before the posted plans are read, and is sent after them.
 void Rank::send_updates(double now) {
   if (ended_) return;
-  if (nodes_.expanded >= cached_only_until_) search_.set_bounding_effort(BoundingEffort::kFull);
-  send_pricing_messages();
+  if (nodes_.expanded >= cached_only_until_)
+    components_.tree().set_bounding_effort(BoundingEffort::kFull);
+  send_component_messages();
   send_learned_bounds(now);
   message::Status status = this->status();
   send_found();
@@ -277,16 +273,14 @@ void Rank::send_updates(double now) {
   for (auto& [rank, peer] : peers_) peer.news = false;
 }
 
-void Rank::send_pricing_messages() {
-  for (auto& [rank, request] : search_.lagrangian().dispatch_pricing())
-    send(rank, message::RequestPricing{std::move(request)});
-  if (auto answer = search_.lagrangian().take_answer())
-    send(0, message::PricingDone{std::move(*answer)});
+void Rank::send_component_messages() {
+  for (auto& [rank, message] : components_.take_messages())
+    send(rank, message::ForComponent{std::move(message)});
 }
 
 void Rank::send_learned_bounds(double now) {
   if (!bound_broadcast_.is_on()) return;
-  const auto memory = search_.memory();
+  const auto memory = components_.memory().cache();
   for (const LearnedBound& fact :
        learned_bounds_of(memory->take_new_entries(), *memory, trees_of_bounds_))
     bound_broadcast_.add(fact);
@@ -299,8 +293,8 @@ void Rank::send_learned_bounds(double now) {
 // Forwards the bounds even if this rank's cache has no room for them, because other ranks get them
 // only through this rank.
 void Rank::receive(message::LearnedBounds& facts) {
-  const auto memory = search_.memory();
-  const bool has_room = search_.has_room_for_facts();
+  const auto memory = components_.memory().cache();
+  const bool has_room = components_.memory().has_room_for_facts();
   for (std::string& bytes : facts.facts) {
     LearnedBound fact = message::unpacked(bytes);
     if (!ended_) bound_broadcast_.add(fact.utility(), std::move(bytes), facts.reach);
@@ -313,33 +307,33 @@ void Rank::send_found() {
     parent_.send(message::NewPlan{std::move(found->plan), found->source});
 }
 
-RunStatistics Rank::statistics(Stats counts) const {
-  search_.add_counts(counts);
-  counts.counts["messages"] += transport_.messages();
-  counts.counts["message_bytes"] += transport_.bytes();
-  counts.counts["nodes_sent"] += nodes_sent_;
-  counts.counts["learned_bounds_sent"] += learned_bounds_sent_;
-  std::int64_t& batches = counts.counts["node_batches"];
+RunStatistics Rank::statistics(Counters counters) const {
+  components_.add_counts(counters);
+  counters[Counter::kMessages] += transport_.messages();
+  counters[Counter::kMessageBytes] += transport_.bytes();
+  counters[Counter::kNodesSent] += nodes_sent_;
+  counters[Counter::kLearnedBoundsSent] += learned_bounds_sent_;
+  std::int64_t& batches = counters[Counter::kNodeBatches];
   for (const auto& [rank, peer] : peers_) batches += peer.sent;
-  RunStatistics statistics{{std::move(counts.counts), search_.memory_use()}, {}};
+  RunStatistics statistics{{counters.named(), components_.memory_use()}, {}};
   RankStatistics& mine = statistics.ranks[transport_.rank()];
   mine.expanded = nodes_.expanded;
   mine.open = nodes_.counts().open;
   if (nodes_.any()) mine.bound = nodes_.bound();
   mine.memory = statistics.whole.memory.process;
-  mine.low_level_calls = statistics.whole.counts["low_level_calls"];
-  mine.branching_cost_queries = statistics.whole.counts["branching_cost_queries"];
+  mine.low_level_calls = counters[Counter::kLowLevelCalls];
+  mine.branching_cost_queries = counters[Counter::kBranchingCostQueries];
   return statistics;
 }
 
-void Rank::send_statistics(Stats counts) {
-  parent_.send(message::ProcessStatistics{statistics(std::move(counts))});
+void Rank::send_statistics(const Counters& counters) {
+  parent_.send(message::ProcessStatistics{statistics(counters)});
 }
 
 // Sends a plan that was found just when a limit was reached, too.
-void Rank::send_finished(Stats counts) {
+void Rank::send_finished(const Counters& counters) {
   send_found();
-  parent_.send(message::RankFinished{statistics(std::move(counts)), messages_sent_});
+  parent_.send(message::RankFinished{statistics(counters), messages_sent_});
 }
 
 bool Rank::left() const {

@@ -10,10 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "engine/components.h"
 #include "engine/live_nodes.h"
 #include "engine/run_observer.h"
-#include "engine/shared_search.h"
 #include "engine/solve.h"
+#include "model/counters.h"
 #include "mpi/bound_broadcast.h"
 #include "mpi/hierarchy.h"
 #include "mpi/hierarchy_links.h"
@@ -27,9 +28,9 @@
 namespace grove::detail {
 
 // Holds the nodes of a rank for its workers, and exchanges messages about them with the coordinator
-// and with other ranks. The protocol is at the head of coordinator.cpp. search() and the objects
-// reachable from it are thread-safe, except where they say otherwise. Only the communicating thread
-// may use everything else.
+// and with other ranks. The protocol is at the head of coordinator.cpp. components() and the
+// objects reachable from it are thread-safe, except where they say otherwise. Only the
+// communicating thread may use everything else.
 class Rank {
  public:
   // All arguments must outlive this object, except `stops`, which is copied. `stops`: cached stops
@@ -37,7 +38,7 @@ class Rank {
   Rank(const Problem& problem, const SolveOptions& options, const Limits& limits,
        Transport& transport, const AgentStopsCache& stops);
 
-  SharedSearch& search() { return search_; }
+  Components& components() { return components_; }
   const LocalNodes& nodes() const { return nodes_; }
   // Cached stops of the agents; the workers' caches start with them.
   const AgentStopsCache& stops() const { return stops_; }
@@ -59,13 +60,13 @@ class Rank {
                   : std::min(parent_.reports_at(), bound_broadcast_.next_send_time());
   }
 
-  // Sends the current statistics, including `counts`, those of the workers. Must not be called
+  // Sends the current statistics, including `counters`, those of the workers. Must not be called
   // after send_finished().
-  void send_statistics(Stats counts);
+  void send_statistics(const Counters& counters);
   // True if the workers must end. The caller calls send_finished() with their counts after they
   // have ended.
   bool ended() const { return ended_; }
-  void send_finished(Stats counts);
+  void send_finished(const Counters& counters);
   // True if no further message will arrive.
   bool left() const;
 
@@ -87,13 +88,13 @@ class Rank {
   void gather();
   void send_part();
   void send_found();
-  void send_pricing_messages();
+  void send_component_messages();
   void send_learned_bounds(double now);
   void receive(message::LearnedBounds& facts);
   void push(const std::vector<NodeRecord>& records, const std::vector<GroupBound>& findings);
   void restart(Cost proven);
   message::Status status() const;
-  RunStatistics statistics(Stats counts) const;
+  RunStatistics statistics(Counters counters) const;
   bool is_wanted(Cost bound) const;
   void send(int rank, const message::Message& message);
 
@@ -107,9 +108,9 @@ class Rank {
   AgentStopsCache stops_;
   Trees trees_;  // must outlive everything that holds nodes of the trees
   RemoteBounds shared_bounds_;
-  TreeSource remote_trees_;  // supplies no tree: the coordinator instantiates them
+  TreeSupply remote_trees_;  // supplies no tree: the coordinator instantiates them
   WorkObserver unwatched_;   // does nothing: the coordinator observes the run
-  SharedSearch search_;
+  Components components_;
 
   std::map<std::uint32_t, NodePtr> roots_;  // by tree number
   TreeIndex trees_of_bounds_;

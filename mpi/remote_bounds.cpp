@@ -33,12 +33,12 @@ void RemoteBounds::end() {
   limits_.cancel_workers();
 }
 
-void RemoteBounds::prove(Cost bound, BoundSource by) {
+void RemoteBounds::prove(Cost bound, ComponentId by) {
   const std::lock_guard lock(mutex_);
   if (bound > proven_.first) proven_ = {bound, by};
 }
 
-std::pair<Cost, BoundSource> RemoteBounds::proven() const {
+std::pair<Cost, ComponentId> RemoteBounds::proven() const {
   const std::lock_guard lock(mutex_);
   return proven_;
 }

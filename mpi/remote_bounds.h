@@ -37,14 +37,14 @@ class RemoteBounds : public SharedBounds {
   // Stores the plan, to be sent, if it is better than the plan stored so far or, if none is stored,
   // than the incumbent. No worker prunes by it before rank 0 has checked it.
   void post(Plan plan, PlanSource source) override;
-  void prove(Cost bound, BoundSource by) override;
+  void prove(Cost bound, ComponentId by) override;
   void nodes_changed() override {}
 
   // Returns the best plan posted since the last call, or nullopt if no plan posted since then was
   // better than the incumbent at that time.
   std::optional<Found> take_found();
   // The best bound that this rank has proven outside the tree search, and its source.
-  std::pair<Cost, BoundSource> proven() const;
+  std::pair<Cost, ComponentId> proven() const;
   // Sets the lower bound of the whole search.
   void set_lower_bound(Cost bound) { known_ = bound; }
   // Makes a checked plan the incumbent if it is better than the current one.
@@ -61,7 +61,7 @@ class RemoteBounds : public SharedBounds {
   mutable std::mutex mutex_;
   std::optional<Plan> incumbent_;  // incumbent_, found_ and proven_ are guarded by mutex_
   std::optional<Found> found_;
-  std::pair<Cost, BoundSource> proven_{0, BoundSource::kJointSearch};
+  std::pair<Cost, ComponentId> proven_{0, ComponentId{}};
 };
 
 }  // namespace grove::detail

@@ -34,12 +34,11 @@ void sleep(double seconds) {
 // The searching threads of this rank and their outcome.
 class SearchThread {
  public:
-  SearchThread(const Problem& problem, const SolveOptions& options, const Limits& limits,
-               Rank& rank, int number)
-      : limits_(limits), shared_(rank.search()) {
-    for (int i = 0; i < options.threads; ++i)
-      workers_.push_back(std::make_unique<Worker>(problem, options, limits, shared_, rank.stops(),
-                                                  number * options.threads + i));
+  // `threads`: number of workers. `rank` must outlive this object.
+  SearchThread(Rank& rank, int number, int threads)
+      : components_(rank.components()), limits_(components_.context().limits) {
+    for (int i = 0; i < threads; ++i)
+      workers_.push_back(std::make_unique<Worker>(components_, number * threads + i));
     thread_ = std::jthread([this] { run(); });
   }
   ~SearchThread() { limits_.cancel_workers(); }
@@ -50,24 +49,24 @@ class SearchThread {
     if (failure_) std::rethrow_exception(failure_);
     return true;
   }
-  Stats counts() const {
-    Stats stats;
-    for (const auto& worker : workers_) worker->add_counts(stats);
-    return stats;
+  Counters counters() const {
+    Counters counters;
+    for (const auto& worker : workers_) worker->add_counts(counters);
+    return counters;
   }
 
  private:
   void run() {
     try {
-      run_parallel(workers_, shared_, limits_, [] {});
+      run_parallel(workers_, components_, limits_, [] {});
     } catch (...) {
       failure_ = std::current_exception();
     }
     ended_ = true;
   }
 
+  Components& components_;
   const Limits& limits_;
-  SharedSearch& shared_;
   std::vector<std::unique_ptr<Worker>> workers_;
   std::exception_ptr failure_;
   std::atomic<bool> ended_{false};
@@ -104,7 +103,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
                                           const std::function<void()>& poll) {
   const Limits::Clock::time_point begin = limits.now();
   RankProcess member(problem, options, limits, observer, transport);
-  SearchThread searching(problem, options, limits, member.rank(), transport.rank());
+  SearchThread searching(member.rank(), transport.rank(), options.threads);
   const double patience = options.tuning.unresponsive_timeout;
   SilenceTimer silence;
   bool sent_finished = false;
@@ -121,11 +120,11 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
     }
     const double interval = member.rank().ended() ? kHeartbeatInterval_s : kAccountInterval_s;
     if (!sent_finished && now - accounted > interval) {
-      member.rank().send_statistics(searching.counts());
+      member.rank().send_statistics(searching.counters());
       accounted = now;
     }
     if (!sent_finished && searching.ended() && member.rank().ended()) {
-      member.rank().send_finished(searching.counts());
+      member.rank().send_finished(searching.counters());
       sent_finished = true;
     }
     if (heard) heard_at = now;
@@ -139,7 +138,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
     if (!heard) sleep(next_poll(heard_at, rested + kMinNap_s, poll_interval) - rested);
   }
   if (!member.coordinator()) return std::nullopt;
-  if (options.proof != nullptr) member.rank().search().lagrangian().log_proof(*options.proof);
+  if (options.proof != nullptr) member.rank().components().log_proof(*options.proof);
   return member.coordinator()->conclude();
 }
 

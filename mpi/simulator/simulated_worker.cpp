@@ -20,21 +20,36 @@ void MddInterner::forget_unused() {
   cleanup_size_ = 2 * mdds_.size() + 1000;
 }
 
+namespace {
+
+// Lets a work item use an expander that serves all workers.
+class SharedExpander : public Workspace {
+ public:
+  explicit SharedExpander(Expander& expander) : expander_(expander) {}
+  Expander& expander() override { return expander_; }
+
+ private:
+  Expander& expander_;
+};
+
+}  // namespace
+
 void SimulatedWorker::begin(double now, Expander& expander) {
-  turn_ = worker_.choose();
-  if (!turn_) return;
-  const double before = expander.whole_work();
+  item_ = worker_.choose();
+  if (!item_) return;
   const double before_s = processor_time();
   expander.swap_cache(agent_caches_);
-  worker_.perform(*turn_, expander);
+  SharedExpander workspace(expander);
+  item_->perform(workspace);
   expander.swap_cache(agent_caches_);
-  for (auto& [id, mdd] : turn_->found.mdds)
-    if (mdd.use_count() == 1) mdd = mdds_.one_of(mdd);  // just built by this item
+  if (CacheDelta* const found = item_->new_results())
+    for (auto& [id, mdd] : found->mdds)
+      if (mdd.use_count() == 1) mdd = mdds_.one_of(mdd);  // just built by this item
   // Publishing here, before the simulated end of the item, is not too early: a simulated rank has
   // only one worker, so no other worker of the rank can read the results.
-  Worker::publish(*turn_);
+  item_->publish();
   const double processor_s = processor_time() - before_s;
-  const double work = expander.whole_work() - before + static_cast<double>(turn_->lagrangian.work);
+  const double work = item_->duration();
   const double takes_s =
       machine_.seconds_per_work > 0 ? work * machine_.seconds_per_work : processor_s;
   began_ = now;
@@ -47,15 +62,14 @@ void SimulatedWorker::begin(double now, Expander& expander) {
 }
 
 void SimulatedWorker::end() {
-  worker_.commit(*turn_);
-  turn_.reset();
+  worker_.commit(*item_);
+  item_.reset();
 }
 
 void SimulatedWorker::abandon(double now) {
   tally_.busy_s -= busy_until_ - now;
   busy_until_ = now;
-  turn_->expansion = {};
-  turn_->expansion.stopped = true;
+  item_->abandon();
   end();
 }
 

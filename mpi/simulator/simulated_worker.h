@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <unordered_map>
 
 #include "engine/worker.h"
@@ -51,7 +50,7 @@ class SimulatedWorker {
   // Starts a work item if the worker has one; then busy() is true until end() or abandon().
   // `expander` can be any expander of the same problem; it is used as if it were this worker's own.
   void begin(double now, Expander& expander);
-  bool busy() const { return turn_.has_value(); }
+  bool busy() const { return item_ != nullptr; }
   // Start and end of the current or last work item, in simulated seconds.
   double began() const { return began_; }
   double busy_until() const { return busy_until_; }
@@ -66,7 +65,7 @@ class SimulatedWorker {
   Worker& worker_;
   const Machine& machine_;
   MddInterner& mdds_;
-  std::optional<Worker::WorkItem> turn_;  // nullopt: not busy
+  std::unique_ptr<WorkItem> item_;      // nullptr: not busy
   Expander::AgentCaches agent_caches_;  // per-agent data that the worker's own expander would keep
   double began_ = 0;
   double busy_until_ = 0;

@@ -73,16 +73,12 @@ struct SimulatedRank {
       : transport(setting.network, rank, setting.machine, setting.communication),
         member(setting.problem, setting.options, limits, setting.observer, transport,
                setting.stops),
-        worker(setting.problem, setting.options, setting.limits, member.rank().search(),
-               setting.stops, rank),
+        worker(member.rank().components(), rank),
         player(worker, setting.machine, setting.sets),
         heard_at(setting.machine.poll *
                  (rank * kGoldenRatio - std::floor(rank * kGoldenRatio) - 1)) {}
 
-  bool has_work() {
-    return member.rank().nodes().frontier.open() > 0 ||
-           member.rank().search().lagrangian().has_jobs();
-  }
+  bool has_work() { return member.rank().components().has_work(); }
 
   Limits limits;  // one per rank, because each rank cancels its own worker
   TimedTransport transport;

@@ -68,7 +68,7 @@ class MergedObserver {
     next_.on_expanded(node, expansion, worker);
   }
   void note(std::string_view note) { next_.on_note(note); }
-  void outside_bound(BoundSource by) { next_.on_outside_bound(by); }
+  void outside_bound(ComponentId by) { next_.on_outside_bound(by); }
   void infeasible(std::string_view reason) { next_.on_infeasible(reason); }
   void end() {
     if (searched_) next_.on_event(RunEvent::kEnd, last_);
@@ -103,7 +103,7 @@ class Stage : public RunObserver {
   void on_event(RunEvent event, const Progress& progress) override {
     merged_.event(event, of_whole(progress));
   }
-  void on_outside_bound(BoundSource by) override { merged_.outside_bound(by); }
+  void on_outside_bound(ComponentId by) override { merged_.outside_bound(by); }
   void on_infeasible(std::string_view reason) override { merged_.infeasible(reason); }
   bool wants_statistics() override { return merged_.wants_statistics(); }
   void on_statistics(const RunStatistics& statistics) override { merged_.statistics(statistics); }
@@ -133,7 +133,7 @@ class StageOfB : public Stage {
 
   // Not forwarded, because these results hold only for the chosen destinations.
   void on_infeasible(std::string_view) override {}
-  void on_outside_bound(BoundSource) override {}
+  void on_outside_bound(ComponentId) override {}
 
  private:
   Plan of_whole(const Plan& plan) const override {

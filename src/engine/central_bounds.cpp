@@ -19,8 +19,6 @@
 // (c) Pruning. No thread prunes by an incumbent before GlobalBounds has checked it.
 #include "engine/central_bounds.h"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 namespace grove::detail {
@@ -54,7 +52,7 @@ void CentralBounds::nodes_changed() {
   run_events_.bound(global_bounds_.lower_bound());
 }
 
-void CentralBounds::prove(Cost bound, BoundSource by) {
+void CentralBounds::prove(Cost bound, ComponentId by) {
   run_events_.prove_outside_trees(by, [&] {
     global_bounds_.update(bound, bound);
     return global_bounds_.lower_bound();
@@ -64,12 +62,12 @@ void CentralBounds::prove(Cost bound, BoundSource by) {
     run_events_.infeasible(kNoJointPlan);
 }
 
-void CentralBounds::add_counts(Stats& stats) const {
+void CentralBounds::add_counts(Counters& counters) const {
   const std::lock_guard lock(counting_);
   for (std::size_t source = 0; source < found_.size(); ++source) {
     if (found_[source].plans == 0) continue;
-    stats.counts[fmt::format("plans_{}", kPlanSources[source])] += found_[source].plans;
-    stats.counts[fmt::format("gain_{}", kPlanSources[source])] += found_[source].gain;
+    counters[*counter_named("plans_", kPlanSources[source])] += found_[source].plans;
+    counters[*counter_named("gain_", kPlanSources[source])] += found_[source].gain;
   }
 }
 

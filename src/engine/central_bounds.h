@@ -36,10 +36,10 @@ class CentralBounds : public SharedBounds {
   std::optional<Plan> plan_below(Cost cost) const override;
   Cost lower_bound() const override { return global_bounds_.lower_bound(); }
   void post(Plan plan, PlanSource source) override;
-  void prove(Cost bound, BoundSource by) override;
+  void prove(Cost bound, ComponentId by) override;
   void nodes_changed() override;
   // Adds, by source, the number of better plans and the total cost reduction by them. Thread-safe.
-  void add_counts(Stats& stats) const;
+  void add_counts(Counters& counters) const;
 
   // For queries about decisions of GlobalBounds.
   const GlobalBounds& global_bounds() const { return global_bounds_; }

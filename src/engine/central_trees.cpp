@@ -43,13 +43,13 @@ std::vector<TreeRecord> CentralTrees::records(std::int64_t count) const {
   return records;
 }
 
-void CentralTrees::add_counts(Stats& stats) const {
-  stats.counts["nodes_generated"] += count_;  // only the roots
-  stats.counts["restarts"] += restarts_;
-  stats.counts["roots_generated"] += count_;
-  stats.counts["trees_prepared"] += prepared_count_;
-  stats.counts["trees_prepared_unused"] += prepared_ ? 1 : 0;
-  stats.counts["rtsp_calls"] += forest_.rtsp_calls();
+void CentralTrees::add_counts(Counters& counters) const {
+  counters[Counter::kNodesGenerated] += count_;  // only the roots
+  counters[Counter::kRestarts] += restarts_;
+  counters[Counter::kRootsGenerated] += count_;
+  counters[Counter::kTreesPrepared] += prepared_count_;
+  counters[Counter::kTreesPreparedUnused] += prepared_ ? 1 : 0;
+  counters[Counter::kRtspCalls] += forest_.rtsp_calls();
 }
 
 void CentralTrees::instantiate_due_tree() {

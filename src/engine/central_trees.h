@@ -10,8 +10,8 @@
 #include "engine/central_bounds.h"
 #include "engine/live_nodes.h"
 #include "engine/run_events.h"
-#include "engine/shared_search.h"
 #include "engine/solve.h"
+#include "engine/tree_supply.h"
 #include "search/forest.h"
 #include "search/tree_record.h"
 
@@ -19,7 +19,7 @@ namespace grove::detail {
 
 // Instantiates the next tree of a forest when GlobalBounds requires it, and pushes its root. When
 // no node is live but some were evicted, it can push the roots again; see restart() in the .cpp.
-class CentralTrees : public TreeSource {
+class CentralTrees : public TreeSupply {
  public:
   // All arguments must outlive this object.
   CentralTrees(const SolveOptions& options, Forest& forest, LiveNodes& nodes,
@@ -38,7 +38,7 @@ class CentralTrees : public TreeSource {
   // Returns the records of the first `count` trees.
   std::vector<TreeRecord> records(std::int64_t count) const;
   // Adds the counts of this object to the statistics of the solution.
-  void add_counts(Stats& stats) const;
+  void add_counts(Counters& counters) const;
 
   void instantiate_due_tree() override;
   void refill_nodes() override;

@@ -35,13 +35,13 @@ constexpr auto kPause = std::chrono::microseconds(100);  // sleep of a worker th
 
 class WorkerPool {
  public:
-  WorkerPool(SharedSearch& shared, const Limits& limits, const BetweenItems& between_turns)
-      : shared_(shared), limits_(limits), between_turns_(between_turns) {}
+  WorkerPool(const Components& components, const Limits& limits, const BetweenItems& between_turns)
+      : components_(components), limits_(limits), between_turns_(between_turns) {}
 
   void work(Worker& worker) {
     begin();
     try {
-      for (; !shared_.over(); between_turns_())
+      for (; !components_.over(); between_turns_())
         if (worker.turn())
           call_another();
         else if (!park())
@@ -75,7 +75,7 @@ class WorkerPool {
   // must not wait.
   bool park() {
     std::unique_lock lock(mutex_);
-    if (awake_ == 1 || ended_ || shared_.over() || shared_.may_take()) return false;
+    if (awake_ == 1 || ended_ || components_.over() || components_.has_work()) return false;
     --awake_;
     ++parked_;
     called_.wait(lock, [this] { return ended_ || calls_ > 0; });
@@ -91,14 +91,14 @@ class WorkerPool {
   void call_another() {
     {
       const std::lock_guard lock(mutex_);
-      if (parked_ == 0 || !shared_.may_take()) return;
+      if (parked_ == 0 || !components_.has_work()) return;
       --parked_;
       ++calls_;
     }
     called_.notify_one();
   }
 
-  SharedSearch& shared_;
+  const Components& components_;
   const Limits& limits_;
   const BetweenItems& between_turns_;
   std::mutex mutex_;  // guards all members below
@@ -112,26 +112,24 @@ class WorkerPool {
 // One work item of a round of a deterministic run.
 struct Unit {
   Worker* worker;
-  Worker::WorkItem turn;
-
-  bool is_primal() const { return turn.job == Worker::WorkItem::Job::kPrimal; }
+  std::unique_ptr<WorkItem> item;
 };
 
 // Chooses the work items of a round: up to kMaxTurnsPerRound per worker. A worker gets no further
-// item after one that does not expand a node. With more items per round the nodes would be chosen
-// less well; with fewer, threads would wait for each other more.
+// item after one that does not allow it (WorkItem::allows_next()). With more items per round the
+// nodes would be chosen less well; with fewer, threads would wait for each other more.
 std::vector<Unit> choose_round(std::span<const std::unique_ptr<Worker>> workers) {
   std::vector<Unit> units;
   std::vector<bool> continues(workers.size(), true);
   for (int i = 0; i < kMaxTurnsPerRound; ++i)
     for (std::size_t w = 0; w < workers.size(); ++w) {
       if (!continues[w]) continue;
-      auto turn = workers[w]->choose();
-      continues[w] = turn && turn->job == Worker::WorkItem::Job::kExpand;
-      if (turn) units.push_back({workers[w].get(), std::move(*turn)});
+      auto item = workers[w]->choose();
+      continues[w] = item && item->allows_next();
+      if (item) units.push_back({workers[w].get(), std::move(item)});
     }
-  // Primal items take longest, so they start first.
-  std::stable_partition(units.begin(), units.end(), [](const Unit& u) { return u.is_primal(); });
+  std::stable_partition(units.begin(), units.end(),
+                        [](const Unit& u) { return u.item->is_long(); });
   return units;
 }
 
@@ -153,33 +151,34 @@ void for_each_unit(std::vector<Unit>& units, ThreadTeam& team, const What& what)
 
 }  // namespace
 
-void run_single_threaded(Worker& worker, const SharedSearch& shared,
+void run_single_threaded(Worker& worker, const Components& components,
                          const BetweenItems& between_turns) {
-  for (; !shared.over(); between_turns()) worker.turn();
+  for (; !components.over(); between_turns()) worker.turn();
 }
 
-void run_parallel(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
+void run_parallel(std::span<const std::unique_ptr<Worker>> workers, const Components& components,
                   const Limits& limits, const BetweenItems& between_turns) {
   struct AllowWork {
     const Limits& limits;
     ~AllowWork() { limits.clear_cancel(); }
   } const at_last{limits};
-  WorkerPool pool(shared, limits, between_turns);
+  WorkerPool pool(components, limits, between_turns);
   ThreadTeam(static_cast<int>(workers.size())).run([&](int thread) {
     pool.work(*workers[static_cast<std::size_t>(thread)]);
   });
 }
 
-void run_deterministic(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
-                       int threads, const BetweenItems& between_turns) {
+void run_deterministic(std::span<const std::unique_ptr<Worker>> workers,
+                       const Components& components, int threads,
+                       const BetweenItems& between_turns) {
   ThreadTeam team(std::min(threads, static_cast<int>(workers.size())));
-  const auto perform = [](Unit& unit) { unit.worker->perform(unit.turn, unit.worker->expander()); };
-  const auto publish = [](Unit& unit) { Worker::publish(unit.turn); };
-  while (!shared.over()) {
+  const auto perform = [](Unit& unit) { unit.item->perform(unit.worker->workspace()); };
+  const auto publish = [](Unit& unit) { unit.item->publish(); };
+  while (!components.over()) {
     std::vector<Unit> units = choose_round(workers);
     for_each_unit(units, team, perform);
     for_each_unit(units, team, publish);
-    for (Unit& unit : units) unit.worker->commit(unit.turn);
+    for (Unit& unit : units) unit.worker->commit(*unit.item);
     between_turns();
   }
 }

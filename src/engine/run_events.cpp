@@ -29,7 +29,7 @@ void RunEvents::bound(Cost lower_bound) {
   bound_locked(lower_bound);
 }
 
-void RunEvents::prove_outside_trees(BoundSource by, const std::function<Cost()>& prove) {
+void RunEvents::prove_outside_trees(ComponentId by, const std::function<Cost()>& prove) {
   const std::lock_guard lock(mutex_);
   const Cost lower_bound = prove();
   if (lower_bound > announced_bound_) observer_.on_outside_bound(by);

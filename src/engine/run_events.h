@@ -34,7 +34,7 @@ class RunEvents : public WorkObserver {
   void bound(Cost lower_bound);
   // Calls `prove`, which applies a bound proven outside the tree search and returns the lower
   // bound, and reports that bound if it rose. No other event is reported in between.
-  void prove_outside_trees(BoundSource by, const std::function<Cost()>& prove);
+  void prove_outside_trees(ComponentId by, const std::function<Cost()>& prove);
   void infeasible(std::string_view reason);
   // Treats `lower_bound` as reported. Must be called before the search.
   void bound_is_known(Cost lower_bound) { announced_bound_ = lower_bound; }

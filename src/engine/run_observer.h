@@ -57,7 +57,7 @@ class RunObserver {
 
   // A bound proven outside the tree search has raised the lower bound. The next kBound event
   // reports it, unless it is infinite.
-  virtual void on_outside_bound(BoundSource /*by*/) {}
+  virtual void on_outside_bound(ComponentId /*by*/) {}
 
   // A checkpoint was written, or writing it failed.
   virtual void on_checkpoint(const CheckpointReport& /*report*/) {}
@@ -94,7 +94,7 @@ class ForwardingObserver : public RunObserver {
   }
   void on_infeasible(std::string_view reason) override { next_.on_infeasible(reason); }
   void on_note(std::string_view note) override { next_.on_note(note); }
-  void on_outside_bound(BoundSource by) override { next_.on_outside_bound(by); }
+  void on_outside_bound(ComponentId by) override { next_.on_outside_bound(by); }
   void on_checkpoint(const CheckpointReport& report) override { next_.on_checkpoint(report); }
   bool wants_statistics() override { return next_.wants_statistics(); }
   void on_statistics(const RunStatistics& statistics) override { next_.on_statistics(statistics); }

@@ -115,8 +115,11 @@ Solution RunState::conclude() const {
     if (shared_bounds_.has_no_joint_plan())
       solution.stats.texts["reason"] = CentralBounds::kNoJointPlan;
   }
-  trees_.add_counts(solution.stats);
-  shared_bounds_.add_counts(solution.stats);
+  Counters counters;
+  trees_.add_counts(counters);
+  shared_bounds_.add_counts(counters);
+  add(counters, solution.stats.counts);
+  add_missing(solution.stats.counts);
   if (resumed_) {
     solution.stats.counts["nodes_expanded_before"] = nodes_before();
     solution.stats.measures["seconds_before"] = before_.seconds;

@@ -238,6 +238,15 @@ void serialize(Archive& archive, Plan& plan) {
   archive(plan.cost, plan.agents);
 }
 
+// Serialises an enumeration of one byte whose values are 0 to `last`.
+template <class Archive, class Enum>
+void enumerated(Archive& archive, Enum& value, Enum last) {
+  auto number = static_cast<std::uint8_t>(value);
+  archive(number);
+  if (number > static_cast<std::uint8_t>(last)) throw cereal::Exception("unknown kind");
+  value = static_cast<Enum>(number);
+}
+
 // Returns the bytes of `value`.
 template <class T>
 std::string to_bytes(const T& value) {

@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Interface through which expanding threads use the global bounds; sources of lower bounds.
+// Interface through which components use the global bounds.
 #pragma once
 
 #include <cstdint>
 #include <optional>
-#include <string_view>
 
+#include "engine/component_id.h"
 #include "model/plan.h"
 #include "primal/plan_source.h"
 
 namespace grove::detail {
-
-// Source of a lower bound proven outside the tree search. Messages contain the numeric values.
-enum class BoundSource : std::uint8_t {
-  kJointSearch,  // A* over joint states
-  kLagrangian,   // Lagrangian relaxation
-};
-inline constexpr BoundSource kLastProvenBy = BoundSource::kLagrangian;
-
-// Name in logs.
-constexpr std::string_view name_of(BoundSource by) {
-  return by == BoundSource::kJointSearch ? "joint" : "lagrangian";
-}
 
 // Incumbent and lower bound of a run, as known in this process. CentralBounds implements the
 // interface in the process that holds the bounds; the implementation in other processes stores the
@@ -49,7 +37,7 @@ class SharedBounds {
   virtual void post(Plan plan, PlanSource source) = 0;
   // Reports a lower bound proven outside the tree search on all plans that cost less than cutoff()
   // at the time of the proof. kInfiniteCost: no such plan exists.
-  virtual void prove(Cost bound, BoundSource by) = 0;
+  virtual void prove(Cost bound, ComponentId by) = 0;
   // Must be called after a node was replaced by its children.
   virtual void nodes_changed() = 0;
 };

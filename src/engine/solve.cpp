@@ -6,12 +6,12 @@
 #include <string>
 
 #include "engine/checkpoint.h"
+#include "engine/components.h"
 #include "engine/live_nodes.h"
 #include "engine/local_checkpoints.h"
 #include "engine/multicore.h"
 #include "engine/run_observer.h"
 #include "engine/run_state.h"
-#include "engine/shared_search.h"
 #include "engine/worker.h"
 #include "model/limits.h"
 #include "search/feasibility.h"
@@ -32,32 +32,30 @@ bool begin(const Problem& problem, const SolveOptions& options, RunState& run, L
 // The workers of a run.
 class Workers {
  public:
-  Workers(const Problem& problem, const SolveOptions& options, const Limits& limits,
-          SharedSearch& shared, const AgentStopsCache& stops)
-      : options_(options), limits_(limits), shared_(shared) {
-    const int count = options.deterministic ? kDeterministicWorkers : options.threads;
+  explicit Workers(Components& components)
+      : options_(components.context().options), components_(components) {
+    const int count = options_.deterministic ? kDeterministicWorkers : options_.threads;
     for (int number = 0; number < count; ++number)
-      workers_.push_back(std::make_unique<Worker>(problem, options, limits, shared, stops, number));
+      workers_.push_back(std::make_unique<Worker>(components, number));
   }
 
   void run(const BetweenItems& between_turns) {
     if (options_.deterministic)
-      run_deterministic(workers_, shared_, options_.threads, between_turns);
+      run_deterministic(workers_, components_, options_.threads, between_turns);
     else if (workers_.size() > 1)
-      run_parallel(workers_, shared_, limits_, between_turns);
+      run_parallel(workers_, components_, components_.context().limits, between_turns);
     else
-      run_single_threaded(*workers_.front(), shared_, between_turns);
+      run_single_threaded(*workers_.front(), components_, between_turns);
   }
 
   // Thread-safe.
-  void add_counts(Stats& stats) const {
-    for (const auto& worker : workers_) worker->add_counts(stats);
+  void add_counts(Counters& counters) const {
+    for (const auto& worker : workers_) worker->add_counts(counters);
   }
 
  private:
   const SolveOptions& options_;
-  const Limits& limits_;
-  SharedSearch& shared_;
+  Components& components_;
   std::vector<std::unique_ptr<Worker>> workers_;
 };
 
@@ -65,35 +63,37 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
                 RunObserver& observer) {
   LocalNodes nodes;
   RunState run(problem, options, limits, observer, nodes.pool, nodes);
-  SharedSearch shared(options, limits, nodes, run.shared_bounds(), run.trees(), run.run_events());
   LocalCheckpoints checkpoints(options, limits, run, nodes);
-  Stats stats;  // counts of workers that are already destroyed
+  Counters counters;  // of workers that are already destroyed
+  std::optional<Components> components;
   std::optional<Workers> workers;
   run.run_events().set_statistics_source([&] {
-    Stats so_far = stats;
+    Counters so_far = counters;
     if (workers) workers->add_counts(so_far);
-    shared.add_counts(so_far);
+    if (components) components->add_counts(so_far);
     run.shared_bounds().add_counts(so_far);
-    return RunStatistics{{std::move(so_far.counts), shared.memory_use()}, {}};
+    return RunStatistics{{so_far.named(), components ? components->memory_use() : MemoryUse()}, {}};
   });
   bool begun = false;
   try {
     begun = begin(problem, options, run, nodes);
     if (begun) {
-      workers.emplace(problem, options, limits, shared, run.stops());
+      components.emplace(problem, options, limits, run.stops(), nodes, run.shared_bounds(),
+                         run.trees(), run.run_events());
+      workers.emplace(*components);
       workers->run([&] { checkpoints.write_if_due(); });
     }
   } catch (const std::bad_alloc&) {
     limits.memory_exhausted();
   }
-  if (workers) workers->add_counts(stats);
+  if (workers) workers->add_counts(counters);
   workers.reset();  // their memory may be needed for the solution
-  if (options.proof != nullptr) shared.lagrangian().log_proof(*options.proof);
+  if (components && options.proof != nullptr) components->log_proof(*options.proof);
   if (begun) checkpoints.write_last();
   run.end();
   Solution solution = run.conclude();
-  shared.add_counts(solution.stats);
-  solution.stats.counts.merge(stats.counts);
+  if (components) components->add_counts(counters);
+  add(counters, solution.stats.counts);
   solution.stats.measures["node_bytes"] = nodes.pool.mean_bytes();
   return solution;
 }

@@ -5,26 +5,27 @@
 
 #include <cstdint>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <vector>
 
 #include "lagrangian/dual_solution.h"
 #include "lagrangian/finish_time_conflicts.h"
 #include "lagrangian/occupancy_counts.h"
-#include "lagrangian/pricer.h"
 #include "lagrangian/relaxed_rows.h"
 #include "lagrangian/target_level_step.h"
+#include "model/limits.h"
 #include "model/tuning.h"
 #include "planning/agent_stops_cache.h"
 
 namespace grove::detail {
 
-// Lagrangian relaxation of the root problem, without constraints of the constraint tree. Proceeds
-// in rounds. In each round, threads of this process and *helpers* (other processes) compute the
-// subproblem value of each agent; then one thread updates the multipliers. next(), has_jobs(),
-// perform(), commit(), ended(), lower_bound(), rounds() and dual_solution() are thread-safe. The
-// methods for helpers are called by one thread at a time.
+// Lagrangian relaxation of the root problem, without constraints of the constraint tree: its
+// multipliers, rows and ascent. Proceeds in rounds; each round has two phases:
+// - Pricing: the caller computes the subproblem value of each agent under multipliers(), stores it
+//   by store_value(), and calls end_pricing() when no value is missing.
+// - Updating: the caller calls update() until it returns true, then begin_round().
+// One thread at a time, with two exceptions: in the pricing phase any thread may read multipliers()
+// and known_value() of an agent that has no value yet, and in the updating phase any thread may
+// call lower_bound(), rounds() and ended() while one thread is in update().
 class LagrangianBound {
  public:
   // Returns nullptr if an agent has more than ten stops, or too many for the size of the world: its
@@ -33,82 +34,78 @@ class LagrangianBound {
   static std::unique_ptr<LagrangianBound> make(const Instance& instance,
                                                const AgentStopsCache& stops, const Tuning& tuning);
 
-  // A unit of work: the subproblem values of some agents or, if the range of agents is empty, a
-  // part of the computation between two rounds.
-  using Job = PricingJob;
-  // Returns the next job, which the caller must perform() and then commit(). Returns nullopt if no
-  // job is available now or the bound has ended.
-  std::optional<Job> next();
-  bool has_jobs() const;
-  // Performs a job. `cutoff`: plans of this cost or more are of no interest. `known`: a proven
-  // lower bound on every plan. If memory runs out or a penalty would exceed its maximum, the bound
-  // ends when the job is committed, and lower_bound() keeps its value.
-  void perform(Job& job, Pricer& pricer, Cost cutoff, Cost known, const Limits& limits);
-  void commit(Job job);
+  // From now on, records the multipliers that prove lower_bound(). Call it before the first round
+  // ends.
+  void record_best_multipliers() { best_.records_multipliers = true; }
+  // The recorded multipliers that are > 0, with their rows.
+  const std::vector<RowMultiplier>& best_multipliers() const { return best_.multipliers; }
 
-  // Sets the number of helpers, which are numbered from 0.
-  void set_helpers(int count) { helpers_.resize(static_cast<std::size_t>(count)); }
-  // A pricing request for a helper.
-  struct DispatchedRequest {
-    int helper;
-    std::int64_t work;  // expected effort, in the unit of model/effort.h
-    PricingRequest request;
-  };
-  // Returns pricing requests for helpers without an outstanding request. Returns none if there is
-  // too little work left in this round. The caller must send them.
-  std::vector<DispatchedRequest> dispatch_pricing();
-  // Processes a helper's reply. Uses a value only if the round and the multipliers are still those
-  // of the request and the agent has no value yet. Returns the number of values used. Returns 0 for
-  // a reply that is late. Throws std::invalid_argument if a current reply has agents that were not
-  // requested.
-  int accept(int helper, PricingReply answer);
+  int agent_count() const { return instance_.agent_count(); }
+  const Multipliers& multipliers() const { return rows_.multipliers(); }
+  // The penalised cost of the agent's best known path under the current multipliers; kNoCost if no
+  // path is known.
+  ScaledCost known_value(AgentIndex agent) const;
 
-  // From now on, records the multipliers that prove lower_bound(). Call it before the first job.
-  void record_best_multipliers() { records_best_multipliers_ = true; }
-  // The recorded multipliers that are > 0, with their rows. Call it only while no job is in
-  // progress.
-  const std::vector<RowMultiplier>& best_multipliers() const { return best_multipliers_; }
+  bool is_pricing() const { return phase_ == Phase::kPricing; }
+  bool has_value(AgentIndex agent) const { return round_.has_value[agent] != 0; }
+  // Number of agents without a value in this round.
+  int missing_values() const { return round_.missing; }
+  // Stores a value of this round, which no path of the agent may undercut under multipliers(), and
+  // the path found (empty: none cheaper than known_value()). Ignored, with the result false, if the
+  // agent already has a value.
+  bool store_value(AgentIndex agent, ScaledCost value, Path path);
+  void end_pricing();
 
-  // True if the bound has ended: next() returns no more jobs.
-  bool ended() const;
+  // Performs a part of the update of rows and multipliers, of about lagrangian_step_work, and adds
+  // its effort to `work`. `cutoff`: plans of this cost or more are of no interest. Returns true
+  // when the update is complete. Throws std::bad_alloc, and std::overflow_error if a penalty
+  // exceeds its maximum; the caller must then call end().
+  bool update(Cost cutoff, const Limits& limits, std::int64_t& work);
+  // Begins the next round or ends the bound. `known`: a proven lower bound on every plan.
+  void begin_round(Cost known);
+  void end() { phase_ = Phase::kEnded; }
+
+  // True if no further round follows.
+  bool ended() const { return phase_ == Phase::kEnded; }
   // The proven lower bound on the cost of every plan.
   Cost lower_bound() const;
-  int rounds() const;
-  const Multipliers& multipliers() const { return rows_.multipliers(); }
+  // Number of rounds whose pricing has ended.
+  int rounds() const { return rounds_; }
   // The dual solution of a round whose bound was the best until then. Returns nullptr if there is
-  // none yet. It is not updated in every round.
-  std::shared_ptr<const DualSolution> dual_solution() const;
+  // none yet. update() replaces it, but not in every round.
+  const std::shared_ptr<const DualSolution>& dual_solution() const { return solutions_.latest; }
 
  private:
-  enum class Phase : std::uint8_t { kPricing, kBetween, kEnded };
+  enum class Phase : std::uint8_t { kPricing, kUpdating, kEnded };
+  struct Round {
+    std::vector<Path> paths;              // by agent: the best path found; empty: none
+    std::vector<ScaledCost> values;       // by agent
+    std::vector<std::uint8_t> has_value;  // by agent: in this round
+    int missing = 0;
+  };
+  // Events of the round that can become rows.
+  struct Events {
+    bool are_counted = false;           // occupancy_ contains the paths of this round
+    std::vector<FinishTimePair> pairs;  // still to be tested
+  };
+  struct Best {
+    ScaledCost bound = 0;
+    bool records_multipliers = false;
+    std::vector<RowMultiplier> multipliers;  // they prove `bound`
+  };
+  struct Solutions {
+    std::shared_ptr<const DualSolution> latest;
+    std::int64_t next_round;  // first round that may store the next one
+  };
 
   LagrangianBound(const Instance& instance, const AgentStopsCache& stops, const Tuning& tuning);
-  // The agents `first`, ..., `end` - 1, for one helper.
-  struct AgentRange {
-    int helper;
-    AgentIndex first;
-    AgentIndex end;
-    std::int64_t work;  // expected
-  };
-  struct Helper {
-    std::vector<Multipliers::Amount> multipliers;  // by row: the multiplier that was sent last
-    bool is_awaiting_reply = false;                // its reply is outstanding
-  };
 
-  void begin_pricing();
-  std::optional<Job> next_value();
-  ScaledCost known_value(AgentIndex agent) const;
-  std::vector<AgentRange> partition_agents();
-  std::int64_t work_left() const;
-  bool store_value(AgentIndex agent, ScaledCost price, Path path);
-  void end_pricing_if_done();
+  ScaledCost bound_of_round() const;
   void note_best_multipliers();
-  void do_perform(Job& job, Pricer& pricer, Cost cutoff, Cost known, const Limits& limits);
-  void end_round(Job& job, Cost cutoff, Cost known, const Limits& limits);
   void separate_conflict_rows();
-  void separate_finish_rows(Job& job, const Limits& limits);
+  void separate_finish_rows(const Limits& limits, std::int64_t& work);
   void store_dual_solution(ScaledCost bound);
-  void move_multipliers(Cost cutoff, Cost known);
+  void move_multipliers(Cost cutoff);
 
   const Instance& instance_;
   const Tuning& tuning_;
@@ -117,34 +114,13 @@ class LagrangianBound {
   OccupancyCounts occupancy_;
   FinishTimeConflicts pairs_;
   TargetLevelStep ascent_;
-  std::vector<Path> paths_;                // by agent: the best path found; empty: none
-  std::vector<ScaledCost> values_;         // by agent
-  std::vector<std::int64_t> labels_;       // by agent: mean labels per agent of its last job
-  std::vector<FinishTimePair> colliding_;  // events still to be tested in this round
-  bool is_counted_ = false;                // occupancy_ contains the paths of this round
-  std::int64_t next_dual_solution_round_;  // first round that may store the next dual solution
-  std::shared_ptr<const DualSolution> new_dual_solution_;
-  std::vector<Helper> helpers_;  // used only by the thread that calls the methods for helpers
-  bool records_best_multipliers_ = false;
-
-  mutable std::mutex mutex_;  // guards the members below
   Phase phase_ = Phase::kPricing;
-  int in_progress_ = 0;  // jobs in progress
+  Round round_;
+  Events events_;
+  bool is_stationary_ = false;  // the last direction was 0
   int rounds_ = 0;
-  ScaledCost best_ = 0;
-  std::vector<RowMultiplier> best_multipliers_;  // recorded multipliers that prove best_
-  std::shared_ptr<const DualSolution> dual_solution_;
-  // This process computes subproblem values in ascending order of agents, and requests values of
-  // the last agents from helpers. When only requested agents are left, it computes their
-  // outstanding values as well, in descending order.
-  AgentIndex next_agent_ = 0;
-  AgentIndex end_agent_ = 0;             // agents from this one on are assigned to helpers
-  AgentIndex asked_ = 0;                 // agents from this one on were requested from helpers
-  AgentIndex taken_over_ = 0;            // requested agents from this one on are computed here, too
-  std::vector<std::uint8_t> is_priced_;  // by agent
-  std::vector<ScaledCost> known_costs_;  // by agent: cost of a known path, as sent to a helper
-  int unpriced_ = 0;
-  std::int64_t work_between_ = 0;  // work of the jobs after the last round
+  Best best_;
+  Solutions solutions_;
 };
 
 }  // namespace grove::detail

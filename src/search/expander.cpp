@@ -6,10 +6,7 @@
 // the bound does not rise, the node is split.
 #include "search/expander.h"
 
-#include <algorithm>
 #include <array>
-#include <bit>
-#include <functional>
 #include <numeric>
 
 #include "model/effort.h"
@@ -17,24 +14,38 @@
 namespace grove::detail {
 namespace {
 
-// ExpansionCounts consists of 64-bit counters only.
-using Counts = std::array<std::int64_t, sizeof(ExpansionCounts) / sizeof(std::int64_t)>;
-
-template <class Operation>
-ExpansionCounts each_by_each(const ExpansionCounts& a, const ExpansionCounts& b, Operation what) {
-  auto counts = std::bit_cast<Counts>(a);
-  std::ranges::transform(counts, std::bit_cast<Counts>(b), counts.begin(), what);
-  return std::bit_cast<ExpansionCounts>(counts);
+// By kind of the second constraint of a split; nullopt: no split has this kind.
+const std::array<std::optional<Counter>, kConstraintKinds>& split_counters() {
+  static const auto counters = [] {
+    std::array<std::optional<Counter>, kConstraintKinds> found;
+    for (std::uint8_t kind = 0; kind < kConstraintKinds; ++kind)
+      if (const auto known = constraint_kind(kind))
+        found[kind] = counter_named("splits_", split_name(*known));
+    return found;
+  }();
+  return counters;
 }
 
 }  // namespace
 
 ExpansionCounts& ExpansionCounts::operator+=(const ExpansionCounts& more) {
-  return *this = each_by_each(*this, more, std::plus());
+  reported += more.reported;
+  mdd_nodes += more.mdd_nodes;
+  group_work += more.group_work;
+  subproblems += more.subproblems;
+  groups += more.groups;
+  path_steps += more.path_steps;
+  return *this;
 }
 
 ExpansionCounts& ExpansionCounts::operator-=(const ExpansionCounts& less) {
-  return *this = each_by_each(*this, less, std::minus());
+  reported -= less.reported;
+  mdd_nodes -= less.mdd_nodes;
+  group_work -= less.group_work;
+  subproblems -= less.subproblems;
+  groups -= less.groups;
+  path_steps -= less.path_steps;
+  return *this;
 }
 
 struct Expander::Leaving {
@@ -149,33 +160,37 @@ Plan Expander::plan(const Node& node) {
 }
 
 double Expander::whole_work() const {
-  const ExpansionCounts done = counts();
-  return static_cast<double>(planner_.work() + done.group_work) +
-         effort::kPerOptimalNode * static_cast<double>(done.mdd_nodes) +
-         effort::kPerJointPair * static_cast<double>(done.joint_mdd_nodes) +
-         effort::kPerSubproblem * static_cast<double>(done.subproblems) +
-         effort::kPerGroup * static_cast<double>(done.groups) +
-         effort::kPerStepSeen * static_cast<double>(done.path_steps);
+  const auto times = [](double rate, std::int64_t of) { return rate * static_cast<double>(of); };
+  return static_cast<double>(planner_.work() + dependencies_.joint_groups().work()) +
+         times(effort::kPerOptimalNode,
+               planner_.mdd_nodes() + brancher_.mdd_nodes() + dependencies_.mdd_nodes()) +
+         times(effort::kPerJointPair, dependencies_.joint_mdd_nodes()) +
+         times(effort::kPerSubproblem, memory_.asked()) +
+         times(effort::kPerGroup, memory_.groups_asked()) +
+         times(effort::kPerStepSeen, view_.steps() + dependencies_.steps());
 }
 
 ExpansionCounts Expander::counts() const {
   ExpansionCounts counts;
-  counts.low_level_calls = planner_.calls();
-  counts.low_level_expanded = planner_.expanded();
-  counts.pair_expansions = dependencies_.expansions();
+  Counters& reported = counts.reported;
+  reported[Counter::kLowLevelCalls] = planner_.calls();
+  reported[Counter::kLowLevelExpanded] = planner_.expanded();
+  reported[Counter::kPairExpansions] = dependencies_.expansions();
+  reported[Counter::kJointMddNodes] = dependencies_.joint_mdd_nodes();
+  reported[Counter::kGroupStates] = dependencies_.joint_groups().states();
+  for (std::size_t kind = 0; kind < kConstraintKinds; ++kind)
+    if (const std::int64_t splits = brancher_.splits()[kind]; splits > 0)
+      reported[split_counters()[kind].value()] += splits;
+  reported[Counter::kBypasses] = brancher_.bypasses();
+  reported[Counter::kBranchingCostQueries] = brancher_.child_costs().asked();
+  reported[Counter::kBranchingCostHits] = brancher_.child_costs().known();
+  reported[Counter::kMddQueries] = memory_.mdd_queries();
+  reported[Counter::kMddHits] = memory_.mdd_hits();
   counts.mdd_nodes = planner_.mdd_nodes() + brancher_.mdd_nodes() + dependencies_.mdd_nodes();
-  counts.joint_mdd_nodes = dependencies_.joint_mdd_nodes();
-  counts.group_states = dependencies_.joint_groups().states();
   counts.group_work = dependencies_.joint_groups().work();
   counts.subproblems = memory_.asked();
   counts.groups = memory_.groups_asked();
   counts.path_steps = view_.steps() + dependencies_.steps();
-  std::ranges::copy(brancher_.splits(), counts.splits.begin());
-  counts.bypasses = brancher_.bypasses();
-  counts.branching_cost_queries = brancher_.child_costs().asked();
-  counts.branching_cost_hits = brancher_.child_costs().known();
-  counts.mdd_queries = memory_.mdd_queries();
-  counts.mdd_hits = memory_.mdd_hits();
   return counts;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/counters.h"
 #include "model/limits.h"
 #include "search/brancher.h"
 #include "search/node.h"
@@ -34,28 +35,15 @@ struct Expansion {
   std::optional<Branching> branching;  // if the node was split
 };
 
-// Counters of expansions.
+// Counters of expansions: those that are reported, and those from which only the duration is
+// estimated.
 struct ExpansionCounts {
-  std::int64_t low_level_calls = 0;
-  std::int64_t low_level_expanded = 0;  // labels
-  std::int64_t pair_expansions = 0;     // nodes expanded to bound pairs and groups
-  std::int64_t mdd_nodes = 0;        // MddBuilder::nodes(), and nodes that FewestConflicts searched
-  std::int64_t joint_mdd_nodes = 0;  // pairs of MDD nodes compared (joint MDDs)
-  std::int64_t group_states = 0;     // states expanded by joint search of pairs and groups
-  std::int64_t group_work = 0;       // effort of joint search, in the unit of model/effort.h
-  std::int64_t subproblems = 0;      // look-ups of subproblems
-  std::int64_t groups = 0;           // groups compared in full or looked up
-  std::int64_t path_steps = 0;       // path steps searched for conflicts
-  // Branching, without that of pairs and groups: splits by the kind of their second constraint
-  // (Brancher::splits()); bypasses; cost queries of strong branching and re-planning, and those
-  // that the cache answered. mdd_queries and mdd_hits: all MDD queries, and those that the cache
-  // answered.
-  std::array<std::int64_t, kConstraintKinds> splits{};
-  std::int64_t bypasses = 0;
-  std::int64_t branching_cost_queries = 0;
-  std::int64_t branching_cost_hits = 0;
-  std::int64_t mdd_queries = 0;
-  std::int64_t mdd_hits = 0;
+  Counters reported;
+  std::int64_t mdd_nodes = 0;    // MddBuilder::nodes(), and nodes that FewestConflicts searched
+  std::int64_t group_work = 0;   // effort of joint search, in the unit of model/effort.h
+  std::int64_t subproblems = 0;  // look-ups of subproblems
+  std::int64_t groups = 0;       // groups compared in full or looked up
+  std::int64_t path_steps = 0;   // path steps searched for conflicts
 
   ExpansionCounts& operator+=(const ExpansionCounts& more);
   ExpansionCounts& operator-=(const ExpansionCounts& less);

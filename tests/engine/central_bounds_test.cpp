@@ -97,9 +97,9 @@ TEST_F(CentralBoundsTest, BoundCoversNodesAndTreesAndNeverFalls) {
 // A bound proven outside the tree search holds for all plans, whatever the bound of the nodes.
 TEST_F(CentralBoundsTest, BoundProvenOutsideTheTreeSearchCounts) {
   bounds_.nodes_changed();
-  bounds_.prove(4, BoundSource::kJointSearch);
+  bounds_.prove(4, ComponentId::kJoint);
   EXPECT_EQ(bounds_.lower_bound(), 5);
-  bounds_.prove(7, BoundSource::kLagrangian);
+  bounds_.prove(7, ComponentId::kLagrangian);
   EXPECT_EQ(bounds_.lower_bound(), 7);
   bounds_.nodes_changed();
   EXPECT_EQ(bounds_.lower_bound(), 7);
@@ -108,7 +108,7 @@ TEST_F(CentralBoundsTest, BoundProvenOutsideTheTreeSearchCounts) {
   EXPECT_EQ(bounds_.lower_bound(), 8);
   EXPECT_FALSE(bounds_.over());
   EXPECT_FALSE(bounds_.has_no_joint_plan());
-  bounds_.prove(kInfiniteCost, BoundSource::kJointSearch);
+  bounds_.prove(kInfiniteCost, ComponentId::kJoint);
   EXPECT_TRUE(bounds_.over());
   EXPECT_TRUE(bounds_.global_bounds().proven_infeasible());
   EXPECT_TRUE(bounds_.has_no_joint_plan());
@@ -117,7 +117,7 @@ TEST_F(CentralBoundsTest, BoundProvenOutsideTheTreeSearchCounts) {
 // A bound proven outside the trees can reach the cost of the incumbent, which is then optimal.
 TEST_F(CentralBoundsTest, BoundProvenOutsideTheTreesCanCloseTheGap) {
   bounds_.post(plan(), PlanSource::kStart);
-  bounds_.prove(kInfiniteCost, BoundSource::kJointSearch);
+  bounds_.prove(kInfiniteCost, ComponentId::kJoint);
   EXPECT_TRUE(bounds_.over());
   EXPECT_EQ(bounds_.lower_bound(), plan().cost);
   EXPECT_FALSE(bounds_.global_bounds().proven_infeasible());
@@ -131,7 +131,7 @@ TEST_F(CentralBoundsTest, WeakerBoundIsNotTheReasonForInfeasibility) {
   bounds_.expect_trees_from(kInfiniteCost);
   bounds_.nodes_changed();
   ASSERT_TRUE(bounds_.global_bounds().proven_infeasible());
-  bounds_.prove(7, BoundSource::kLagrangian);
+  bounds_.prove(7, ComponentId::kLagrangian);
   EXPECT_FALSE(bounds_.has_no_joint_plan());
 }
 

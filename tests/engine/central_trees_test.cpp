@@ -56,9 +56,9 @@ class CentralTreesTest : public ::testing::Test {
     trees_->begin();
   }
   std::int64_t count(const std::string& name) {
-    Stats stats;
-    trees_->add_counts(stats);
-    return stats.counts.at(name);
+    Counters counters;
+    trees_->add_counts(counters);
+    return counters.named().at(name);
   }
   void complete_best() { nodes_.frontier.complete(nodes_.frontier.take()); }
 

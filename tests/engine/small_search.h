@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "engine/components.h"
 #include "engine/live_nodes.h"
 #include "engine/run_observer.h"
 #include "engine/shared_bounds.h"
-#include "engine/shared_search.h"
 #include "search/single_tree.h"
 #include "tests/support/instances.h"
 
@@ -58,7 +58,7 @@ struct ScriptedBounds : SharedBounds {
     live_when_posted = nodes ? nodes->frontier.live() : 0;
     posted.emplace_back(std::move(plan), source);
   }
-  void prove(Cost proven, BoundSource) override { bound = std::max(bound, proven); }
+  void prove(Cost proven, ComponentId) override { bound = std::max(bound, proven); }
   void nodes_changed() override { live_when_changed = nodes ? nodes->frontier.live() : 0; }
 
   bool is_over = false;
@@ -71,7 +71,7 @@ struct ScriptedBounds : SharedBounds {
 };
 
 // Counts the calls of instantiate_due_tree(), refill_nodes() and prepare_tree().
-struct CountingSource : TreeSource {
+struct CountingSource : TreeSupply {
   void instantiate_due_tree() override { ++due; }
   void refill_nodes() override {
     ++refills;
@@ -89,13 +89,17 @@ struct CountingSource : TreeSource {
 };
 
 struct CountingObserver : WorkObserver {
-  void expanded(const NodePtr&, const Expansion&, int) override { ++expansions; }
+  void expanded(const NodePtr& node, const Expansion&, int) override {
+    ++expansions;
+    last_cost = node->cost();
+  }
   void evicted(std::span<const NodePtr> nodes) override {
     for (const NodePtr& node : nodes) evicted_bounds.push_back(node->bound());
   }
   void worked() override { ++work_items; }
 
   int expansions = 0;
+  Cost last_cost = 0;  // of the node expanded last
   int work_items = 0;
   std::vector<Cost> evicted_bounds;
 };

@@ -4,8 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <optional>
-#include <string>
+#include <memory>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "small_search.h"
@@ -14,34 +15,45 @@
 namespace grove::detail {
 namespace worker_test {
 
-using Job = Worker::WorkItem::Job;
-
 // A search with workers that the test advances step by step.
 struct Search : testing::SmallSearch {
   explicit Search(Techniques techniques, Instance the_instance = testing::two_in_a_bay())
-      : SmallSearch(std::move(the_instance)) {
-    options.omega = Omega();
-    options.techniques = techniques;
+      : Search(with(techniques), std::move(the_instance)) {}
+  Search(const SolveOptions& the_options, Instance the_instance)
+      : SmallSearch(std::move(the_instance)), options(the_options) {
     bounds.nodes = source.nodes = &nodes;
     nodes.push(root);
   }
-
-  Worker worker(int number = 0) { return Worker(problem, options, limits, shared, stops, number); }
-  static std::optional<Job> job_of(const std::optional<Worker::WorkItem>& item) {
-    return item ? std::optional(item->job) : std::nullopt;
+  static SolveOptions with(Techniques techniques) {
+    SolveOptions options;
+    options.omega = Omega();
+    options.techniques = techniques;
+    return options;
   }
+
+  Worker worker(int number = 0) { return Worker(components, number); }
 
   SolveOptions options;
   testing::ScriptedBounds bounds;
   testing::CountingSource source;
   testing::CountingObserver observer;
-  SharedSearch shared{options, limits, nodes, bounds, source, observer};
+  Components components{problem, options, limits, stops, nodes, bounds, source, observer};
 };
 
-std::int64_t count(const Worker& worker, const std::string& name) {
-  Stats stats;
-  worker.add_counts(stats);
-  return stats.counts.at(name);
+std::string_view name_of(const std::unique_ptr<WorkItem>& item) {
+  return item ? item->name() : "none";
+}
+
+std::int64_t count(const Worker& worker, Counter counter) {
+  Counters counters;
+  worker.add_counts(counters);
+  return counters[counter];
+}
+
+void complete(Worker& worker, WorkItem& item) {
+  item.perform(worker.workspace());
+  item.publish();
+  worker.commit(item);
 }
 
 Instance large_dense_instance() {
@@ -51,12 +63,11 @@ Instance large_dense_instance() {
 TEST(Worker, WorkItemIsVisibleToOthersOnceCommitted) {
   Search s({});
   Worker worker = s.worker();
-  auto item = worker.choose();
-  ASSERT_EQ(Search::job_of(item), Job::kExpand);
-  EXPECT_EQ(item->node, s.root);
-  worker.perform(*item, worker.expander());
-  Worker::publish(*item);
-  EXPECT_EQ(item->expansion.children.size(), 2u);
+  const auto item = worker.choose();
+  ASSERT_EQ(name_of(item), "expand");
+  EXPECT_TRUE(item->allows_next());
+  item->perform(worker.workspace());
+  item->publish();
   EXPECT_EQ(s.nodes.frontier.live(), 1u) << "the root, taken";
   EXPECT_EQ(s.observer.expansions, 0);
   worker.commit(*item);
@@ -65,55 +76,74 @@ TEST(Worker, WorkItemIsVisibleToOthersOnceCommitted) {
   EXPECT_EQ(s.observer.work_items, 1);
 }
 
+TEST(Worker, AbandonedItemReturnsItsNode) {
+  Search s({});
+  Worker worker = s.worker();
+  const auto item = worker.choose();
+  item->perform(worker.workspace());
+  item->abandon();
+  worker.commit(*item);
+  EXPECT_EQ(s.nodes.frontier.open(), 1u);
+  EXPECT_EQ(s.nodes.frontier.bound(), s.root->bound());
+  EXPECT_EQ(s.observer.expansions, 0);
+}
+
 // The effort of an item is its number of labels, plus 16 per call of the low level, plus a quarter
-// of the node's cost, plus 1. whole_work() also counts the other expensive operations.
+// of the node's cost, plus 1. duration() also counts the other expensive operations.
 TEST(Worker, CountsTheWorkOfAnItem) {
   Search s({Technique::kStrongBranching, Technique::kWdg, Technique::kJointMdd});
   Worker worker = s.worker();
+  Expander& expander = worker.workspace().expander();
+  double duration = 0;
   for (int i = 0; i < 3; ++i) {
-    auto item = worker.choose();
-    ASSERT_EQ(Search::job_of(item), Job::kExpand);
-    const ExpansionCounts before = worker.expander().counts();
-    worker.perform(*item, worker.expander());
-    const ExpansionCounts after = worker.expander().counts();
-    EXPECT_EQ(item->work, after.low_level_expanded - before.low_level_expanded +
-                              16 * (after.low_level_calls - before.low_level_calls) +
-                              item->node->cost() / 4 + 1);
+    const auto item = worker.choose();
+    ASSERT_EQ(name_of(item), "expand");
+    const Counters before = expander.counts().reported;
+    item->perform(worker.workspace());
+    const Counters after = expander.counts().reported;
+    const std::int64_t labels =
+        after[Counter::kLowLevelExpanded] - before[Counter::kLowLevelExpanded];
+    const std::int64_t calls = after[Counter::kLowLevelCalls] - before[Counter::kLowLevelCalls];
+    duration += item->duration();
     worker.commit(*item);
+    EXPECT_EQ(item->effort(), labels + 16 * calls + s.observer.last_cost / 4 + 1);
   }
-  const ExpansionCounts c = worker.expander().counts();
-  EXPECT_GT(c.low_level_calls, 0);
-  EXPECT_GT(c.joint_mdd_nodes, 0);
-  EXPECT_EQ(count(worker, "low_level_calls"), c.low_level_calls);
-  const std::int64_t work = c.low_level_expanded + 16 * c.low_level_calls;
+  const ExpansionCounts c = expander.counts();
+  const Counters counted = c.reported;
+  EXPECT_GT(counted[Counter::kLowLevelCalls], 0);
+  EXPECT_GT(counted[Counter::kJointMddNodes], 0);
+  EXPECT_EQ(count(worker, Counter::kLowLevelCalls), counted[Counter::kLowLevelCalls]);
+  const std::int64_t work =
+      counted[Counter::kLowLevelExpanded] + 16 * counted[Counter::kLowLevelCalls];
   const auto times = [](double rate, std::int64_t of) { return rate * static_cast<double>(of); };
-  EXPECT_DOUBLE_EQ(worker.expander().whole_work(),
-                   times(1, work) + times(0.55, c.mdd_nodes) + times(0.85, c.joint_mdd_nodes) +
-                       times(2, c.subproblems) + times(1.7, c.groups) + times(0.15, c.path_steps));
+  EXPECT_NEAR(duration,
+              times(1, work) + times(0.55, c.mdd_nodes) +
+                  times(0.85, counted[Counter::kJointMddNodes]) + times(2, c.subproblems) +
+                  times(1.7, c.groups) + times(0.15, c.path_steps),
+              1e-6);
 }
 
 TEST(Worker, StartsWithPrimalSearchIfTheRootIsLarge) {
   for (const Technique without : {Technique::kPrimal, Technique::kBypass}) {
     Search s(Techniques::defaults().without(without), large_dense_instance());
-    Worker worker = s.worker();
-    EXPECT_EQ(Search::job_of(worker.choose()),
-              without == Technique::kPrimal ? Job::kExpand : Job::kPrimal);
+    EXPECT_EQ(name_of(s.worker().choose()),
+              without == Technique::kPrimal ? "expand" : "primal search");
   }
   Search small(Techniques::defaults());
-  EXPECT_EQ(Search::job_of(small.worker().choose()), Job::kExpand);
-  Search fixed(Techniques::defaults(), large_dense_instance());
-  fixed.options.policy = Policy::kFixed;
-  EXPECT_EQ(Search::job_of(fixed.worker().choose()), Job::kExpand) << "plain CBS";
+  EXPECT_EQ(name_of(small.worker().choose()), "expand");
+  SolveOptions fixed = Search::with(Techniques::defaults());
+  fixed.policy = Policy::kFixed;
+  Search plain(fixed, large_dense_instance());
+  EXPECT_EQ(name_of(plain.worker().choose()), "expand") << "plain CBS";
 }
 
 // Returns the plans that worker `number` finds in its first `items` primal work items.
 std::vector<Plan> found_by(Search& s, int number, int items) {
   Worker worker = s.worker(number);
   for (int i = 0; i < items; ++i) {
-    auto item = worker.choose();
-    if (Search::job_of(item) != Job::kPrimal) break;
-    worker.perform(*item, worker.expander());
-    worker.commit(*item);
+    const auto item = worker.choose();
+    if (name_of(item) != "primal search") break;
+    complete(worker, *item);
   }
   std::vector<Plan> plans;
   for (const auto& [plan, source] : s.bounds.posted) {
@@ -150,24 +180,22 @@ TEST(Worker, PrimalSearchFindsOnlyPlansBelowTheIncumbent) {
 
 TEST(Worker, HelpsToBoundANodeOfAnotherWorker) {
   Search s({Technique::kWdg, Technique::kStrongBranching});
+  TreeSearch& tree = s.components.tree();
   Expansion unfinished;
   unfinished.unfinished = true;
-  s.shared.finish(s.shared.take(), std::move(unfinished), 0);
-  const NodePtr taken = s.shared.take();
+  tree.finish(tree.take(), std::move(unfinished), 0);
+  tree.take();
   Worker worker = s.worker(1);
   int helps = 0;
   auto item = worker.choose();
-  for (; Search::job_of(item) == Job::kHelp; item = worker.choose()) {
+  for (; name_of(item) == "help"; item = worker.choose()) {
     ASSERT_LT(helps++, 100);
-    EXPECT_EQ(item->node, taken);
-    worker.perform(*item, worker.expander());
-    Worker::publish(*item);
-    worker.commit(*item);
+    complete(worker, *item);
   }
   EXPECT_GT(helps, 1) << "weights were computed first";
   EXPECT_FALSE(item) << "no other work is left";
-  EXPECT_EQ(count(worker, "assists"), helps);
-  EXPECT_GT(count(worker, "pair_expansions"), 0);
+  EXPECT_EQ(count(worker, Counter::kAssists), helps);
+  EXPECT_GT(count(worker, Counter::kPairExpansions), 0);
   EXPECT_EQ(s.observer.expansions, 0) << "the other worker expands the node";
   EXPECT_EQ(s.nodes.frontier.live(), 1u);
 }
@@ -176,10 +204,11 @@ TEST(Worker, PreparesATreeOnlyWithoutOtherWork) {
   Search s({});
   s.source.may_prepare = true;
   Worker worker = s.worker();
-  EXPECT_EQ(Search::job_of(worker.choose()), Job::kExpand);
-  auto item = worker.choose();
-  ASSERT_EQ(Search::job_of(item), Job::kPrepare);
-  worker.perform(*item, worker.expander());
+  const auto expand = worker.choose();
+  EXPECT_EQ(name_of(expand), "expand");
+  const auto item = worker.choose();
+  ASSERT_EQ(name_of(item), "prepare a tree");
+  item->perform(worker.workspace());
   EXPECT_EQ(s.source.prepared, 1);
   worker.commit(*item);
   EXPECT_EQ(s.observer.work_items, 1);

@@ -25,7 +25,7 @@ class PlantedOptimum : public RunObserver {
   PlantedOptimum(const Instance& instance, Plan optimum);
 
   void on_event(RunEvent event, const Progress& progress) override;
-  void on_outside_bound(BoundSource) override { raised_outside_trees_ = true; }
+  void on_outside_bound(ComponentId) override { raised_outside_trees_ = true; }
   void on_infeasible(std::string_view reason) override;
   void on_root(const NodePtr& root) override;
   void on_expanded(const NodePtr& node, const Expansion& expansion, int worker) override;

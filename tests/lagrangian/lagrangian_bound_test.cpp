@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "lagrangian/lagrangian_bound.h"
-
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <vector>
 
+#include "lagrangian/pricing_queue.h"
 #include "tests/fuzz/random.h"
 #include "tests/lagrangian/tiny_agents.h"
 #include "tests/oracle/joint_oracle.h"
@@ -30,24 +29,25 @@ class LagrangianBoundTest : public ::testing::Test {
   // Returns the bound after at most `rounds` rounds. After each round the bound must not exceed
   // `optimum`.
   static Cost bound_of(TinyProblem& known, const Tuning& tuning, int rounds, Cost optimum) {
-    const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);
-    if (!bound) return 0;
-    Pricer pricer(bound->multipliers(), known.stops);
-    while (!bound->ended() && bound->rounds() < rounds) {
-      auto job = bound->next();
+    auto lagrangian = LagrangianBound::make(known.instance, known.stops, tuning);
+    if (!lagrangian) return 0;
+    PricingQueue bound(std::move(lagrangian), tuning);
+    Pricer pricer(bound.multipliers(), known.stops);
+    while (!bound.ended() && bound.rounds() < rounds) {
+      auto job = bound.next();
       if (!job) {
         ADD_FAILURE() << "nothing to do";
         break;
       }
-      bound->perform(*job, pricer, optimum + 5, 0, {});
-      bound->commit(std::move(*job));
-      if (bound->lower_bound() > optimum) {
-        ADD_FAILURE() << bound->lower_bound() << " in round " << bound->rounds()
+      bound.perform(*job, pricer, optimum + 5, 0, {});
+      bound.commit(std::move(*job));
+      if (bound.lower_bound() > optimum) {
+        ADD_FAILURE() << bound.lower_bound() << " in round " << bound.rounds()
                       << ", but there is a plan of " << optimum;
         break;
       }
     }
-    return bound->lower_bound();
+    return bound.lower_bound();
   }
 };
 
@@ -87,22 +87,22 @@ TEST_F(LagrangianBoundTest, HasTheDualSolutionOfItsBestRounds) {
   TinyProblem known(corridor());
   Tuning tuning;
   tuning.first_dual_solution_round = 3;
-  const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);
-  Pricer pricer(bound->multipliers(), known.stops);
+  PricingQueue bound(LagrangianBound::make(known.instance, known.stops, tuning), tuning);
+  Pricer pricer(bound.multipliers(), known.stops);
   std::shared_ptr<const DualSolution> last;
   int solutions = 0;
-  while (!bound->ended() && bound->rounds() < 100) {
-    auto job = bound->next();
+  while (!bound.ended() && bound.rounds() < 100) {
+    auto job = bound.next();
     ASSERT_TRUE(job);
-    const Cost proven = bound->lower_bound();
-    bound->perform(*job, pricer, 20, 0, {});
-    EXPECT_EQ(bound->dual_solution(), last);
-    bound->commit(std::move(*job));
-    const auto solution = bound->dual_solution();
+    const Cost proven = bound.lower_bound();
+    bound.perform(*job, pricer, 20, 0, {});
+    EXPECT_EQ(bound.dual_solution(), last);
+    bound.commit(std::move(*job));
+    const auto solution = bound.dual_solution();
     if (solution == last) continue;
     last = solution;
     ++solutions;
-    EXPECT_GE(bound->rounds(), 3);
+    EXPECT_GE(bound.rounds(), 3);
     ScaledCost sum = -solution->multipliers.sum();
     for (AgentIndex agent = 0; agent < known.instance.agent_count(); ++agent) {
       sum += solution->values[agent];

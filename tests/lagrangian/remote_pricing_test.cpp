@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "lagrangian/lagrangian_bound.h"
 #include "tests/fuzz/random.h"
 #include "tests/lagrangian/tiny_agents.h"
 #include "tests/oracle/joint_oracle.h"
@@ -40,12 +39,12 @@ struct HelpingProcess {
       help.commit(std::move(*job));
       return true;
     }
-    auto answer = help.take_answer();
+    auto answer = help.take_reply();
     if (answer) answers.push_back(std::move(*answer));
     return answer.has_value();
   }
 
-  RemotePricing help;
+  PricingHelper help;
   Pricer pricer;
   std::deque<PricingReply> answers;
 };
@@ -54,10 +53,10 @@ struct HelpingProcess {
 class Ascent {
  public:
   Ascent(TinyProblem& known, const Tuning& tuning, int helpers, fuzz::Random& random)
-      : bound(LagrangianBound::make(known.instance, known.stops, tuning)),
-        pricer(bound->multipliers(), known.stops),
+      : bound(LagrangianBound::make(known.instance, known.stops, tuning), tuning),
+        dispatcher(helpers),
+        pricer(bound.multipliers(), known.stops),
         random_(random) {
-    bound->set_helpers(helpers);
     for (int i = 0; i < helpers; ++i) processes.emplace_back(known);
   }
 
@@ -67,20 +66,21 @@ class Ascent {
     const int helper = random_.below(static_cast<int>(processes.size()));
     HelpingProcess& process = processes[static_cast<std::size_t>(helper)];
     if (random_.percent(30)) {
-      for (auto& asked : bound->dispatch_pricing())
+      for (auto& asked : dispatcher.dispatch(bound))
         processes[static_cast<std::size_t>(asked.helper)].help.accept(std::move(asked.request));
     } else if (random_.percent(50)) {
       process.work();
     } else if (!process.answers.empty() && random_.percent(60)) {
-      accepted += bound->accept(helper, std::move(process.answers.front()));
+      accepted += dispatcher.accept(helper, std::move(process.answers.front()), bound);
       process.answers.pop_front();
-    } else if (auto job = bound->next()) {
-      bound->perform(*job, pricer, cutoff, 0, {});
-      bound->commit(std::move(*job));
+    } else if (auto job = bound.next()) {
+      bound.perform(*job, pricer, cutoff, 0, {});
+      bound.commit(std::move(*job));
     }
   }
 
-  const std::unique_ptr<LagrangianBound> bound;
+  PricingQueue bound;
+  PricingDispatcher dispatcher;
   Pricer pricer;
   std::deque<HelpingProcess> processes;
   int accepted = 0;
@@ -102,13 +102,13 @@ TEST(RemotePricing, NeverRaisesTheBoundAboveTheOptimum) {
     const Tuning tuning = tuning_with_short_rounds(random);
     if (!LagrangianBound::make(instance, known.stops, tuning)) continue;
     Ascent ascent(known, tuning, random.between(1, 3), random);
-    for (int i = 0; i < 1500 && !ascent.bound->ended(); ++i) {
+    for (int i = 0; i < 1500 && !ascent.bound.ended(); ++i) {
       ascent.step(truth.plan->cost + 5);
-      ASSERT_LE(ascent.bound->lower_bound(), truth.plan->cost) << ascent.bound->rounds();
+      ASSERT_LE(ascent.bound.lower_bound(), truth.plan->cost) << ascent.bound.rounds();
     }
     ++tried;
     accepted += ascent.accepted;
-    rounds += ascent.bound->rounds();
+    rounds += ascent.bound.rounds();
   }
   EXPECT_GT(tried, 80);
   EXPECT_GT(accepted, 700);
@@ -117,25 +117,23 @@ TEST(RemotePricing, NeverRaisesTheBoundAboveTheOptimum) {
 
 class OneHelper : public ::testing::Test {
  protected:
-  OneHelper() { bound->set_helpers(1); }
-
   void work_alone_until_round(int round) {
-    while (bound->rounds() < round) {
-      auto job = bound->next();
+    while (bound.rounds() < round) {
+      auto job = bound.next();
       ASSERT_TRUE(job);
-      bound->perform(*job, pricer, 20, 0, {});
-      bound->commit(std::move(*job));
+      bound.perform(*job, pricer, 20, 0, {});
+      bound.commit(std::move(*job));
     }
   }
   // Runs the bound until it requests pricing. Returns nullopt if it does not within 100 jobs.
   std::optional<PricingRequest> ask() {
     for (int i = 0; i < 100; ++i) {
-      auto asked = bound->dispatch_pricing();
+      auto asked = dispatcher.dispatch(bound);
       if (!asked.empty()) return std::move(asked.front().request);
-      auto job = bound->next();
+      auto job = bound.next();
       if (!job) break;
-      bound->perform(*job, pricer, 20, 0, {});
-      bound->commit(std::move(*job));
+      bound.perform(*job, pricer, 20, 0, {});
+      bound.commit(std::move(*job));
     }
     return std::nullopt;
   }
@@ -153,9 +151,9 @@ class OneHelper : public ::testing::Test {
     t.lagrangian_step_work = t.lagrangian_min_remote_work = 1;
     return t;
   }();
-  std::unique_ptr<LagrangianBound> bound =
-      LagrangianBound::make(known.instance, known.stops, tuning);
-  Pricer pricer{bound->multipliers(), known.stops};
+  PricingQueue bound{LagrangianBound::make(known.instance, known.stops, tuning), tuning};
+  PricingDispatcher dispatcher{1};
+  Pricer pricer{bound.multipliers(), known.stops};
   HelpingProcess process{known};
 };
 
@@ -163,7 +161,7 @@ TEST_F(OneHelper, ReplyCountsInItsRound) {
   auto request = ask();
   ASSERT_TRUE(request);
   const auto agents = static_cast<int>(request->known.size());
-  EXPECT_EQ(bound->accept(0, answer_to(std::move(*request))), agents);
+  EXPECT_EQ(dispatcher.accept(0, answer_to(std::move(*request)), bound), agents);
 }
 
 TEST_F(OneHelper, ReplyOfAnotherRoundDoesNotCount) {
@@ -171,17 +169,17 @@ TEST_F(OneHelper, ReplyOfAnotherRoundDoesNotCount) {
   auto request = ask();
   ASSERT_TRUE(request);
   PricingReply late = answer_to(std::move(*request));
-  const auto round = bound->rounds();
+  const auto round = bound.rounds();
   work_alone_until_round(round + 1);  // the bound does not wait for the reply
   EXPECT_FALSE(ask()) << "a reply is outstanding";
-  EXPECT_EQ(bound->accept(0, late), 0);
+  EXPECT_EQ(dispatcher.accept(0, late, bound), 0);
   request = ask();
   ASSERT_TRUE(request) << "no reply is outstanding";
   late.round = request->round;
   late.first = request->first;
   late.values.resize(request->known.size(), 1000 * Penalties::kUnit);
   late.paths.resize(request->known.size());
-  EXPECT_EQ(bound->accept(0, late), 0) << "prices under other multipliers";
+  EXPECT_EQ(dispatcher.accept(0, late, bound), 0) << "prices under other multipliers";
 }
 
 TEST_F(OneHelper, ReplyDoesNotCountAfterTheBoundDidItsPart) {
@@ -189,7 +187,7 @@ TEST_F(OneHelper, ReplyDoesNotCountAfterTheBoundDidItsPart) {
   ASSERT_TRUE(request);
   PricingReply late = answer_to(std::move(*request));
   work_alone_until_round(1);
-  EXPECT_EQ(bound->accept(0, std::move(late)), 0);
+  EXPECT_EQ(dispatcher.accept(0, std::move(late), bound), 0);
 }
 
 TEST_F(OneHelper, RefusesInvalidRequests) {

@@ -90,41 +90,21 @@ TEST(Messages, LearnedBoundsRoundTrip) {
   EXPECT_EQ(received.facts, (std::vector{bytes, bytes}));
 }
 
-message::RequestPricing some_question() {
-  message::RequestPricing ask;
-  ask.request.round = 7;
-  ask.request.first = 2;
-  ask.request.known = {4096, kNoCost};
-  ask.request.update.rows = {{.kind = RelaxedRow::Kind::kEdge, .a = 3, .b = 4, .time = 9}};
-  ask.request.update.multipliers = std::string("\x00\x05", 2);
-  return ask;
+message::ForComponent some_component_message() {
+  return {{ComponentId::kLagrangian, "some bytes"}};
 }
 
-TEST(Messages, PricingRequestAndReplyRoundTrip) {
-  const auto request = returned(some_question()).request;
-  EXPECT_EQ(request.round, 7);
-  EXPECT_EQ(request.first, 2);
-  EXPECT_EQ(request.known, some_question().request.known);
-  EXPECT_EQ(request.update.rows, some_question().request.update.rows);
-  EXPECT_EQ(request.update.multipliers, some_question().request.update.multipliers);
-  message::PricingDone sent;
-  sent.answer.round = 7;
-  sent.answer.digest = 0xfedcba9876543210;
-  sent.answer.first = 2;
-  sent.answer.values = {4095, 0};
-  sent.answer.paths = {{1, 2, 3}, {}};
-  sent.answer.work = 11;
-  const auto answer = returned(sent).answer;
-  EXPECT_EQ(answer.round, 7);
-  EXPECT_EQ(answer.digest, 0xfedcba9876543210);
-  EXPECT_EQ(answer.first, 2);
-  EXPECT_EQ(answer.values, sent.answer.values);
-  EXPECT_EQ(answer.paths, sent.answer.paths);
-  EXPECT_EQ(answer.work, 11);
+TEST(Messages, ComponentMessageRoundTrips) {
+  const auto received = returned(some_component_message()).message;
+  EXPECT_EQ(received.component, ComponentId::kLagrangian);
+  EXPECT_EQ(received.bytes, "some bytes");
+  message::ForComponent unknown = some_component_message();
+  unknown.message.component = static_cast<ComponentId>(kComponentNames.size());
+  EXPECT_THROW(message::message_of(bytes(unknown)), std::invalid_argument);
 }
 
 TEST(Messages, TruncatedMessageIsRefused) {
-  for (const std::string& whole : {bytes(some_status()), bytes(some_question())})
+  for (const std::string& whole : {bytes(some_status()), bytes(some_component_message())})
     for (std::size_t length = 0; length < whole.size(); ++length)
       EXPECT_THROW(message::message_of(whole.substr(0, length)), std::invalid_argument) << length;
 }

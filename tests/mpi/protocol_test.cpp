@@ -151,7 +151,7 @@ TEST(IsolatedRank, ReportIntervalGrowsWithTheRun) {
     r.rank.send_updates(begin);
     r.transport.take();
     for (int ms = 1; ms <= 100; ++ms) {
-      r.rank.search().finish(r.rank.search().take(), {}, 0);
+      r.rank.components().tree().finish(r.rank.components().tree().take(), {}, 0);
       r.rank.send_updates(begin + 1e-3 * ms);
     }
     return r.transport.sent<message::Status>(0).size();
@@ -165,7 +165,7 @@ TEST(IsolatedRank, ReportIntervalGrowsWithTheRun) {
 
 TEST(IsolatedRank, ReducesBoundingEffortWhileOthersWaitForNodes) {
   IsolatedRank r;
-  SharedSearch& search = r.rank.search();
+  TreeSearch& search = r.rank.components().tree();
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
   const auto give = [&](std::size_t nodes) {

@@ -28,22 +28,22 @@ bool chance(Rng& random, int percent) {
 // them.
 struct SlowWorker : Worker {
   using Worker::Worker;
-  std::optional<Worker::WorkItem> turn;
+  std::unique_ptr<WorkItem> item;
   bool performed = false;
 
   // Returns false if there is no work item.
   bool step() {
-    if (!turn) {
-      turn = choose();
+    if (!item) {
+      item = choose();
       performed = false;
-      return turn.has_value();
+      return item != nullptr;
     } else if (!performed) {
-      perform(*turn, expander());
+      item->perform(workspace());
       performed = true;
     } else {
-      publish(*turn);
-      commit(*turn);
-      turn.reset();
+      item->publish();
+      commit(*item);
+      item.reset();
     }
     return true;
   }
@@ -72,8 +72,7 @@ struct Process {
           Transport& transport, int workers_wanted)
       : member(problem, options, limits, observer, transport) {
     for (int i = 0; i < workers_wanted; ++i)
-      workers.push_back(std::make_unique<SlowWorker>(problem, options, limits,
-                                                     member.rank().search(), member.rank().stops(),
+      workers.push_back(std::make_unique<SlowWorker>(member.rank().components(),
                                                      transport.rank() * workers_wanted + i));
   }
 
@@ -87,18 +86,18 @@ struct Process {
     if (finished || chance(random, disturbances.poll_percent))
       return {member.exchange_messages(now), false};
     SlowWorker& worker = *workers[random() % workers.size()];
-    if (!member.rank().ended() || worker.turn) return {false, worker.step()};
+    if (!member.rank().ended() || worker.item) return {false, worker.step()};
     try_to_finish();
     return {false, true};
   }
 
   void try_to_finish() {
-    Stats stats;
+    Counters counters;
     for (const auto& worker : workers) {
-      if (worker->turn) return;
-      worker->add_counts(stats);
+      if (worker->item) return;
+      worker->add_counts(counters);
     }
-    member.rank().send_finished(stats);
+    member.rank().send_finished(counters);
     finished = true;
   }
 

@@ -50,11 +50,12 @@ class RankWithRoot {
   }
   // Expands one node. Returns false if there is no node left.
   bool expand() {
-    SharedSearch& search = rank_.search();
+    TreeSearch& search = rank_.components().tree();
     const NodePtr node = search.take();
     if (!node) return false;
-    expander_.use_shared_cache(search.memory());
-    search.finish(node, expander_.expand(node, search.shared_bounds().cutoff(), limits_), 0);
+    expander_.use_shared_cache(rank_.components().memory().cache());
+    search.finish(node,
+                  expander_.expand(node, rank_.components().context().bounds.cutoff(), limits_), 0);
     return true;
   }
   Cost bound() const { return bound_; }

@@ -65,7 +65,8 @@ class ThreadNetwork {
         ReceivedMessage received{from, std::move(link.front().second)};
         link.pop_front();
         const auto addressed = message::message_of(received.bytes);
-        network_.answers_ += std::holds_alternative<message::PricingDone>(addressed.message);
+        network_.answers_ +=
+            std::holds_alternative<message::ForComponent>(addressed.message) && rank_ == 0;
         return received;
       }
       return std::nullopt;

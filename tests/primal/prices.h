@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "lagrangian/lagrangian_bound.h"
+#include "lagrangian/pricing_queue.h"
 
 namespace grove::detail::testing {
 
@@ -16,15 +16,16 @@ inline std::shared_ptr<const DualSolution> dual_solution_of(const Instance& inst
                                                             int rounds) {
   constexpr Cost kAnyCost = 1'000'000;
   const Tuning tuning;
-  const auto bound = LagrangianBound::make(instance, stops, tuning);
+  auto bound = LagrangianBound::make(instance, stops, tuning);
   if (!bound) return nullptr;
-  Pricer pricer(bound->multipliers(), stops);
-  while (!bound->ended() && bound->rounds() < rounds) {
-    auto job = bound->next();
-    bound->perform(*job, pricer, kAnyCost, 0, {});
-    bound->commit(std::move(*job));
+  PricingQueue queue(std::move(bound), tuning);
+  Pricer pricer(queue.multipliers(), stops);
+  while (!queue.ended() && queue.rounds() < rounds) {
+    auto job = queue.next();
+    queue.perform(*job, pricer, kAnyCost, 0, {});
+    queue.commit(std::move(*job));
   }
-  return bound->dual_solution();
+  return queue.dual_solution();
 }
 
 }  // namespace grove::detail::testing

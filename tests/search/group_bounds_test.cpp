@@ -82,8 +82,8 @@ TEST(GroupBound, ReceiverExpandsTheSameWithLessWork) {
       const Outcome there = outcome(s.expand(informed, node));
       EXPECT_EQ(there, outcome(s.expand(s.expander, node))) << "seed " << seed;
       s.expand(uninformed, node);
-      pair_expansions_informed += informed.counts().pair_expansions;
-      pair_expansions_uninformed += uninformed.counts().pair_expansions;
+      pair_expansions_informed += informed.counts().reported[Counter::kPairExpansions];
+      pair_expansions_uninformed += uninformed.counts().reported[Counter::kPairExpansions];
     }
   }
   EXPECT_GT(received, 300) << "too few group bounds for a test";

@@ -56,7 +56,7 @@ void RunLog::on_event(RunEvent event, const Progress& reported) {
   if (event == RunEvent::kProgress) show_progress(progress);
 }
 
-void RunLog::on_outside_bound(BoundSource by) {
+void RunLog::on_outside_bound(ComponentId by) {
   pending_source_ = by;
 }
 
@@ -65,7 +65,7 @@ void RunLog::on_outside_bound(BoundSource by) {
 void RunLog::note_bound(const Progress& progress) {
   if (progress.lower_bound <= bound_) return;
   const bool is_known = receives_expansions_ || progress.nodes_expanded == 0;
-  const std::optional<BoundSource> outside_source = std::exchange(pending_source_, std::nullopt);
+  const std::optional<ComponentId> outside_source = std::exchange(pending_source_, std::nullopt);
   raised_by_[outside_source ? name_of(*outside_source)
              : is_known     ? last_tree_cause_
                             : "tree"] += progress.lower_bound - bound_;

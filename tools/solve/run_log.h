@@ -29,7 +29,7 @@ class RunLog : public RunObserver {
   RunLog(LogFormat& format, Clock::time_point start, const Options& options);
 
   void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override;
-  void on_outside_bound(BoundSource by) override;
+  void on_outside_bound(ComponentId by) override;
   void on_event(RunEvent event, const Progress& progress) override;
   void on_infeasible(std::string_view reason) override;
   void on_note(std::string_view note) override;
@@ -56,7 +56,7 @@ class RunLog : public RunObserver {
   bool has_rows_ = false;
   bool statistics_are_due_ = false;
   bool receives_expansions_ = false;
-  std::optional<BoundSource>
+  std::optional<ComponentId>
       pending_source_;                    // source of the next rise of the bound; nullopt: the tree
   RunEvent event_ = RunEvent::kProgress;  // most important event since the last row
   PlanSource source_ = PlanSource::kTree;

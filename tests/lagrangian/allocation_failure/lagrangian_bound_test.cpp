@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Allocation failures during the rounds of the Lagrangian bound: the computation ends, and its
 // bound is valid.
-#include "lagrangian/lagrangian_bound.h"
+#include "lagrangian/pricing_queue.h"
 
 #include <gtest/gtest.h>
 
@@ -22,20 +22,20 @@ struct End {
 // the jobs, from 0; negative: none.
 End run(TinyProblem& known, int refuse_at) {
   const Tuning tuning;
-  const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);
-  Pricer pricer(bound->multipliers(), known.stops);
+  PricingQueue queue(LagrangianBound::make(known.instance, known.stops, tuning), tuning);
+  Pricer pricer(queue.multipliers(), known.stops);
   End end;
-  while (!bound->ended() && bound->rounds() < kRounds) {
-    auto job = bound->next();
+  while (!queue.ended() && queue.rounds() < kRounds) {
+    auto job = queue.next();
     if (!job) break;
     testing::allocations_until_failure = refuse_at;
-    bound->perform(*job, pricer, 20, 0, {});
+    queue.perform(*job, pricer, 20, 0, {});
     refuse_at = testing::allocations_until_failure;
     testing::allocations_until_failure = -1;
     end.failed = end.failed || job->failed;
-    bound->commit(std::move(*job));
+    queue.commit(std::move(*job));
   }
-  end.lower_bound = bound->lower_bound();
+  end.lower_bound = queue.lower_bound();
   return end;
 }
 

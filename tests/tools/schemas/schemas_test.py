@@ -10,6 +10,7 @@ Exits with code 77 (skipped) if jsonschema is not installed.
 import copy
 import importlib.util
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -167,6 +168,18 @@ class ShippedFiles(Case):
 
 
 class WrittenFiles(Case):
+    def test_counters_are_those_of_the_registry(self):
+        """Compares names, titles and meanings with src/model/counters.def, and names with docs/formats.md."""
+        text = (ROOT / "src/model/counters.def").read_text(encoding="utf-8")
+        rows = re.findall(r'GROVE_COUNTER\(\w+, "(\w+)", \w+, "([^"]*)",((?:\s*"[^"]*")+)\)', text)
+        self.assertEqual(len(rows), text.count("\nGROVE_COUNTER("))
+        described = load(SCHEMAS / "plan.schema.json")["properties"]["stats"]["properties"]
+        formats = (ROOT / "docs/formats.md").read_text(encoding="utf-8")
+        for name, title, meaning in rows:
+            self.assertEqual((described[name]["title"], described[name]["description"]),
+                             (title, "".join(re.findall(r'"([^"]*)"', meaning))), name)
+            self.assertIn(f"`{name}`", formats)
+
     def test_plans_and_logs_are_valid(self):
         cases = {
             "grid": (DATA / "first.cts.json", "--omega", 0),

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Serialisation of the messages of remote pricing.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "lagrangian/pricer.h"
+
+namespace grove::detail {
+
+std::string bytes_of(const PricingRequest& request);
+std::string bytes_of(const PricingReply& reply);
+// Inverse of bytes_of(). Throw std::invalid_argument if `bytes` is not such a message.
+PricingRequest pricing_request_of(std::string_view bytes);
+PricingReply pricing_reply_of(std::string_view bytes);
+
+}  // namespace grove::detail

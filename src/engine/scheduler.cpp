@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// *Policy.* Each component has an account (effort_account.h). For each unit of effort that a
+// worker spends in lower tiers, the component earns
+//
+//   rate = min(cap, max(floor, wanted)),
+//
+// and it pays for its own effort, except for an item after which pays() is false. A component is
+// due if the effort of lower tiers has reached start(), and
+// - its claim is urgent, or
+// - its claim is open and it has credit: earned >= spent.
+//
+// A worker asks the components that are due for a work item, the one registered last first. If none
+// has an item, it asks all components that use idle time, the one registered first first. The tree
+// search is registered first and is never due, so it gets all time that the others do not claim.
+//
+// | component   | tier   | start                     | wanted                  | floor | cap    |
+// |-------------|--------|---------------------------|-------------------------|-------|--------|
+// | tree        | tree   |                           |                         |       |        |
+// | primal      | primal | kStartWork                | 8 x^3, at least 1/32    | 0, 1  | 1/4..8 |
+// | preparation | primal | only in idle time         |                         |       |        |
+// | lagrangian  | bound  | lagrangian_start_work [a] | lagrangian_max_share    |       | ranks  |
+// | joint       | bound  | joint_start_work          | joint_max_share         |       |        |
+//
+// In this table x is (effort at the component's last gain) / (its effort so far). The formulas of
+// each component are at the head of its file in engine/components. [a] Ten times as much without a
+// plan.
+#include "engine/scheduler.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "model/assert.h"
+
+namespace grove::detail {
+
+Scheduler::Scheduler(std::vector<Entry> entries, const SharedBounds& bounds)
+    : entries_(std::move(entries)), bounds_(bounds) {
+  GROVE_CHECK(std::ranges::is_sorted(entries_, {}, &Entry::tier),
+              "components are registered by ascending tier");
+}
+
+bool is_due(WorkSource& source) {
+  if (source.account().base() < source.start()) return false;
+  const Claim claim = source.claim();
+  return claim.is_urgent || (claim.is_open && source.account().has_credit());
+}
+
+std::unique_ptr<WorkItem> Scheduler::choose() {
+  if (bounds_.over()) return nullptr;
+  for (std::size_t i = entries_.size(); i-- > 0;)
+    if (is_due(*entries_[i].source))
+      if (auto item = item_of(i)) return item;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    if (!entries_[i].source->uses_idle_time()) continue;
+    if (auto item = item_of(i)) return item;
+    if (bounds_.over()) break;  // for lack of nodes
+  }
+  return nullptr;
+}
+
+std::unique_ptr<WorkItem> Scheduler::item_of(std::size_t entry) {
+  auto item = entries_[entry].source->next();
+  if (item) item->entry_ = entry;
+  return item;
+}
+
+void Scheduler::charge(const WorkItem& item) {
+  GROVE_CHECK(item.effort() >= 0, "the effort of an item is counted");
+  const Entry& own = entries_.at(item.entry_);
+  if (own.source->pays()) own.source->account().spend(item.effort());
+  for (const Entry& other : entries_) {
+    if (other.tier <= own.tier) continue;
+    EffortAccount& account = other.source->account();
+    const double rate = rate_of(other.source->share(account.base() + item.effort()));
+    GROVE_CHECK(rate >= 0, "no component loses effort to another one");
+    account.earn(item.effort(), rate);
+  }
+}
+
+void Scheduler::add_counts(Counters& counters) const {
+  for (const Entry& entry : entries_) entry.source->add_counts(counters);
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Counters of a run. counters.def declares each of them once.
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace grove::detail {
+
+enum class Counter : std::uint8_t {
+#define GROVE_COUNTER(id, name, shown, title, meaning) id,
+#include "model/counters.def"
+#undef GROVE_COUNTER
+};
+
+inline constexpr std::size_t kCounterCount = 0
+#define GROVE_COUNTER(id, name, shown, title, meaning) +1
+#include "model/counters.def"
+#undef GROVE_COUNTER
+    ;
+
+// When a counter is reported.
+enum class CounterShown : std::uint8_t {
+  kAlways,      // by every run with a search, even if it is 0
+  kIfCounted,   // by runs with the part of the program that counts it
+  kIfPositive,  // by runs in which it is not 0
+};
+
+struct CounterInfo {
+  std::string_view name;
+  CounterShown shown;
+  std::string_view title;
+  std::string_view meaning;
+};
+
+// By Counter.
+extern const std::array<CounterInfo, kCounterCount> kCounters;
+
+// The counter `prefix` + `name`, in which each '-' is replaced by '_'; nullopt: there is none.
+std::optional<Counter> counter_named(std::string_view prefix, std::string_view name);
+
+// A value of each counter. A value type.
+class Counters {
+ public:
+  // Access to change the value; the counter then counts as counted.
+  std::int64_t& operator[](Counter counter) {
+    counted_.set(index(counter));
+    return values_[index(counter)];
+  }
+  std::int64_t operator[](Counter counter) const { return values_[index(counter)]; }
+
+  Counters& operator+=(const Counters& more);
+  // Subtracts the values. The same counters remain counted.
+  Counters& operator-=(const Counters& less);
+
+  // By name: the counters that were counted and, if they are kIfPositive, are not 0.
+  std::map<std::string, std::int64_t> named() const;
+
+ private:
+  static std::size_t index(Counter counter) { return static_cast<std::size_t>(counter); }
+
+  std::array<std::int64_t, kCounterCount> values_{};
+  std::bitset<kCounterCount> counted_;
+};
+
+// Adds `more` to `counts`, name by name.
+void add(const Counters& more, std::map<std::string, std::int64_t>& counts);
+// Adds the counters that are reported always, with the value 0, if they are absent.
+void add_missing(std::map<std::string, std::int64_t>& counts);
+
+}  // namespace grove::detail
