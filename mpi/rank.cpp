@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "model/assert.h"
 #include "mpi/messages.h"
 
 namespace grove::detail {
@@ -45,19 +46,16 @@ message::Status first_status(int rank) {
 
 Rank::Rank(const Problem& problem, const SolveOptions& options, const Limits& limits,
            Transport& transport, const AgentStopsCache& stops)
-    : problem_(problem),
-      omega_(options.omega),
-      limits_(limits),
-      transport_(transport),
+    : transport_(transport),
       hierarchy_(transport.ranks(), options.tuning.coordinator_children),
       parent_(transport, hierarchy_, {transport.rank(), 0}, first_status(transport.rank())),
-      stops_(stops),
-      trees_(problem, stops_, nodes_.pool),
+      trees_{stops, {problem, trees_.stops, nodes_.pool}, {}},
       shared_bounds_(limits, nodes_.frontier),
-      components_(problem, options, limits, stops_, nodes_, shared_bounds_, remote_trees_,
-                  unwatched_, {transport.rank(), transport.ranks()}),
-      bound_broadcast_(transport.rank(), transport.ranks(),
-                       options.tuning.bound_broadcast_rate * kBytesPerMegabyte) {
+      components_(problem, options, limits, stops, nodes_, shared_bounds_, at_coordinator_.trees,
+                  at_coordinator_.observer, {transport.rank(), transport.ranks()}),
+      learned_bounds_(transport.rank(), transport.ranks(),
+                      options.tuning.bound_broadcast_rate * kBytesPerMegabyte,
+                      components_.memory()) {
   if (transport.ranks() > 1) favor_splitting();
 }
 
@@ -66,26 +64,23 @@ void Rank::handle(int from, message::Message&& message) {
     throw std::invalid_argument("rank: unexpected message type");
   };
   std::visit(Overloaded{[&](message::NodeBatch& batch) {
-                          ++received_messages_;
+                          direct_messages_.count_received();
                           receive_batch(from, batch);
                         },
                         [&](message::ForComponent& m) {
-                          ++received_messages_;
+                          direct_messages_.count_received();
                           components_.receive(from, m.message);
                         },
                         [&](message::LearnedBounds& facts) {
-                          ++received_messages_;
-                          receive(facts);
+                          direct_messages_.count_received();
+                          learned_bounds_.receive(facts, ended_);
                         },
-                        [&](message::NewTree& tree) {
-                          const NodePtr& root = roots_[tree.number] =
-                              trees_.add(tree.tree, tree.number);
-                          trees_of_bounds_.add(root->tree());
-                          receive_deferred();
-                        },
+                        [&](message::NewTree& tree) { accept(tree); },
                         [&](message::AssignNodes& assigned) { accept(assigned); },
                         [&](message::SendNodes& order) { send_nodes(order); },
-                        [&](message::ReleaseCustody& covered) { release(covered); },
+                        [&](message::ReleaseCustody& covered) {
+                          custody_.release(covered.to, covered.batches, nodes_.frontier);
+                        },
                         [&](message::Incumbent& incumbent) {
                           const Cost cost = incumbent.plan.cost;
                           shared_bounds_.adopt(std::move(incumbent.plan));
@@ -100,7 +95,7 @@ void Rank::handle(int from, message::Message&& message) {
                           shared_bounds_.end();
                         },
                         [&](message::MessageCounts& message_counts) {
-                          expected_messages_ = message_counts.messages[transport_.rank()];
+                          direct_messages_.expect(message_counts.messages[transport_.rank()]);
                         },
                         unexpected},
              message);
@@ -109,27 +104,26 @@ void Rank::handle(int from, message::Message&& message) {
 // True if a tree of the batch has not arrived yet, or if the batch is of a later epoch, whose
 // Restart this rank has not handled yet.
 bool Rank::must_defer(const message::NodeBatch& batch) const {
-  return batch.epoch > epoch_ || std::ranges::any_of(batch.nodes, [&](const NodeRecord& node) {
-           return !roots_.contains(node.tree);
+  return batch.epoch > handled_.epoch ||
+         std::ranges::any_of(batch.nodes, [&](const NodeRecord& node) {
+           return !trees_.roots.contains(node.tree);
          });
 }
 
 void Rank::receive_batch(int from, message::NodeBatch& batch) {
   const bool must_wait =
-      std::ranges::any_of(held_, [&](const DeferredBatch& h) { return h.from == from; });
+      std::ranges::any_of(deferred_, [&](const DeferredBatch& h) { return h.from == from; });
   if (must_wait || must_defer(batch)) {
-    held_.push_back({from, std::move(batch)});
+    deferred_.push_back({from, std::move(batch)});
     return;
   }
   push(batch.nodes, batch.findings);
-  Peer& peer = peers_[from];
-  ++peer.taken;
-  peer.news = true;
+  custody_.received(from);
   parent_.mark_urgent();
 }
 
 void Rank::receive_deferred() {
-  for (auto& [from, batch] : std::exchange(held_, {})) receive_batch(from, batch);
+  for (auto& [from, batch] : std::exchange(deferred_, {})) receive_batch(from, batch);
 }
 
 // The nodes sent stay in this rank's custody: they are taken from the frontier, but not completed.
@@ -139,15 +133,12 @@ void Rank::send_nodes(const message::SendNodes& order) {
   const auto nodes =
       nodes_.frontier.take_for_transfer(static_cast<std::size_t>(order.count), keeps);
   message::NodeBatch batch;
-  batch.epoch = epoch_;
+  batch.epoch = handled_.epoch;
   for (const NodePtr& node : nodes) batch.nodes.push_back(record_of(*node));
   batch.findings = group_bounds_of(nodes, *components_.memory().cache());
-  Peer& peer = peers_[order.to];
-  peer.custody[peer.sent + 1] = nodes;
-  in_custody_ += std::ssize(nodes);
+  custody_.keep(order.to, nodes);
   send(order.to, batch);
-  ++peer.sent;
-  nodes_sent_ += std::ssize(nodes);
+  custody_.confirm_sent(order.to);
   parent_.mark_urgent();
 }
 
@@ -165,31 +156,30 @@ void Rank::favor_splitting() {
 // node, because that can take long and nearly always yields another node.
 bool Rank::keeps_next() const {
   return static_cast<std::int64_t>(nodes_.frontier.live()) <=
-         static_cast<std::int64_t>(nodes_.frontier.open()) + in_custody_;
+         static_cast<std::int64_t>(nodes_.frontier.open()) + custody_.nodes();
 }
 
-void Rank::release(const message::ReleaseCustody& covered) {
-  Peer& peer = peers_[covered.to];
-  while (!peer.custody.empty() && peer.custody.begin()->first <= covered.batches) {
-    for (const NodePtr& node : peer.custody.begin()->second) nodes_.frontier.complete(node);
-    in_custody_ -= std::ssize(peer.custody.begin()->second);
-    peer.custody.erase(peer.custody.begin());
-  }
+void Rank::accept(const message::NewTree& tree) {
+  GROVE_CHECK(!trees_.roots.contains(tree.number), "each tree is announced once");
+  const NodePtr& root = trees_.roots[tree.number] = trees_.trees.add(tree.tree, tree.number);
+  learned_bounds_.add_tree(root->tree());
+  receive_deferred();
 }
 
 void Rank::accept(const message::AssignNodes& assigned) {
   push(assigned.nodes, {});
   nodes_.frontier.record_evicted_bound(assigned.evicted_bound);
-  ++assigned_;
+  ++handled_.assigned;
   parent_.mark_urgent();
 }
 
 void Rank::push(const std::vector<NodeRecord>& records, const std::vector<GroupBound>& findings) {
   std::vector<NodePtr> nodes;  // nullptr: pruned
   for (const NodeRecord& record : records) {
-    const NodePtr& root = roots_.at(record.tree);
+    const NodePtr& root = trees_.roots.at(record.tree);
     const bool pruned = record.bound >= shared_bounds_.cutoff();
-    nodes.push_back(pruned ? nullptr : node_of(record, root, problem_.instance));
+    nodes.push_back(pruned ? nullptr
+                           : node_of(record, root, components_.context().problem.instance));
   }
   merge(findings, nodes, *components_.memory().cache());
   for (NodePtr& node : nodes)
@@ -217,7 +207,7 @@ void Rank::send_part() {
 
 void Rank::restart(Cost proven) {
   nodes_.restart({}, proven);
-  ++epoch_;
+  ++handled_.epoch;
   parent_.mark_urgent();
   receive_deferred();
 }
@@ -235,18 +225,18 @@ message::Status Rank::status() const {
   std::vector<Frontier::Level> levels = nodes_.frontier.levels(kLevels);
   const bool has_open = !levels.empty();
   std::erase_if(levels, [&](const Frontier::Level& level) { return !is_wanted(level.bound); });
-  const bool idle = live == in_custody_ || (has_open && levels.empty());
+  const bool idle = live == custody_.nodes() || (has_open && levels.empty());
   status.surplus = spare_of(levels, keeps_next());
   status.work_requests = {
       {transport_.rank(), idle, levels.empty() ? kInfiniteCost : levels.front().bound}};
   status.open = static_cast<std::int64_t>(nodes_.frontier.open());
   status.expanded = nodes_.expanded;
-  status.epoch = epoch_;
-  status.assigned = assigned_;
-  limits_.stop_requested();  // checks the limits; possibly the only check on this rank
-  status.stopped = limits_.reason();
-  for (const auto& [rank, peer] : peers_)
-    if (peer.news) status.taken.push_back({transport_.rank(), rank, peer.taken});
+  status.epoch = handled_.epoch;
+  status.assigned = handled_.assigned;
+  const Limits& limits = components_.context().limits;
+  limits.stop_requested();  // checks the limits; possibly the only check on this rank
+  status.stopped = limits.reason();
+  status.taken = custody_.new_receipts(transport_.rank());
   return status;
 }
 
@@ -256,7 +246,7 @@ message::Status Rank::status() const {
 // with omega = 1 % took 1.7 times as long.)
 bool Rank::is_wanted(Cost bound) const {
   const Cost cutoff = shared_bounds_.cutoff();
-  return cutoff == kInfiniteCost || !omega_.accepts(cutoff, bound);
+  return cutoff == kInfiniteCost || !components_.context().options.omega.accepts(cutoff, bound);
 }
 
 // A worker completes a node only after it has posted the plan that the node led to. Therefore the
@@ -269,8 +259,7 @@ void Rank::send_updates(double now) {
   send_learned_bounds(now);
   message::Status status = this->status();
   send_found();
-  if (!parent_.report(std::move(status), now)) return;
-  for (auto& [rank, peer] : peers_) peer.news = false;
+  if (parent_.report(std::move(status), now)) custody_.mark_reported();
 }
 
 void Rank::send_component_messages() {
@@ -279,27 +268,7 @@ void Rank::send_component_messages() {
 }
 
 void Rank::send_learned_bounds(double now) {
-  if (!bound_broadcast_.is_on()) return;
-  const auto memory = components_.memory().cache();
-  for (const LearnedBound& fact :
-       learned_bounds_of(memory->take_new_entries(), *memory, trees_of_bounds_))
-    bound_broadcast_.add(fact);
-  for (auto& [rank, facts] : bound_broadcast_.due(now)) {
-    learned_bounds_sent_ += std::ssize(facts.facts);
-    send(rank, facts);
-  }
-}
-
-// Forwards the bounds even if this rank's cache has no room for them, because other ranks get them
-// only through this rank.
-void Rank::receive(message::LearnedBounds& facts) {
-  const auto memory = components_.memory().cache();
-  const bool has_room = components_.memory().has_room_for_facts();
-  for (std::string& bytes : facts.facts) {
-    LearnedBound fact = message::unpacked(bytes);
-    if (!ended_) bound_broadcast_.add(fact.utility(), std::move(bytes), facts.reach);
-    if (has_room) merge(std::move(fact), trees_of_bounds_, *memory);
-  }
+  for (auto& [rank, bounds] : learned_bounds_.take_messages(now)) send(rank, bounds);
 }
 
 void Rank::send_found() {
@@ -311,10 +280,9 @@ RunStatistics Rank::statistics(Counters counters) const {
   components_.add_counts(counters);
   counters[Counter::kMessages] += transport_.messages();
   counters[Counter::kMessageBytes] += transport_.bytes();
-  counters[Counter::kNodesSent] += nodes_sent_;
-  counters[Counter::kLearnedBoundsSent] += learned_bounds_sent_;
-  std::int64_t& batches = counters[Counter::kNodeBatches];
-  for (const auto& [rank, peer] : peers_) batches += peer.sent;
+  counters[Counter::kNodesSent] += custody_.nodes_sent();
+  counters[Counter::kLearnedBoundsSent] += learned_bounds_.sent();
+  counters[Counter::kNodeBatches] += custody_.batches_sent();
   RunStatistics statistics{{counters.named(), components_.memory_use()}, {}};
   RankStatistics& mine = statistics.ranks[transport_.rank()];
   mine.expanded = nodes_.expanded;
@@ -333,15 +301,15 @@ void Rank::send_statistics(const Counters& counters) {
 // Sends a plan that was found just when a limit was reached, too.
 void Rank::send_finished(const Counters& counters) {
   send_found();
-  parent_.send(message::RankFinished{statistics(counters), messages_sent_});
+  parent_.send(message::RankFinished{statistics(counters), direct_messages_.sent()});
 }
 
 bool Rank::left() const {
-  return expected_messages_ && received_messages_ >= *expected_messages_;
+  return direct_messages_.all_received();
 }
 
 void Rank::send(int rank, const message::Message& message) {
-  ++messages_sent_[rank];
+  direct_messages_.count_sent(rank);
   transport_.send(rank, bytes_of(message, 0));
 }
 

@@ -15,9 +15,10 @@
 #include "engine/run_observer.h"
 #include "engine/solve.h"
 #include "model/counters.h"
-#include "mpi/bound_broadcast.h"
+#include "mpi/custody.h"
 #include "mpi/hierarchy.h"
 #include "mpi/hierarchy_links.h"
+#include "mpi/learned_bound_exchange.h"
 #include "mpi/messages.h"
 #include "mpi/remote_bounds.h"
 #include "mpi/transport.h"
@@ -41,14 +42,14 @@ class Rank {
   Components& components() { return components_; }
   const LocalNodes& nodes() const { return nodes_; }
   // Cached stops of the agents; the workers' caches start with them.
-  const AgentStopsCache& stops() const { return stops_; }
+  const AgentStopsCache& stops() const { return trees_.stops; }
 
   // Handles a message to this rank. Throws std::invalid_argument for a type of message that no rank
   // receives, and for invalid content.
   void handle(int from, message::Message&& message);
   // On rank 0: sets the lower bound of the whole search.
   void set_lower_bound(Cost bound) { shared_bounds_.set_lower_bound(bound); }
-  // Sends plans found here, learned bounds, pricing requests or replies, and the status. Plans are
+  // Sends plans found here, learned bounds, messages of components, and the status. Plans are
   // sent at once. A status is sent at once if it is urgent, otherwise at a limited rate; see
   // ParentLink::report(). Sends nothing once ended() is true. `now`: seconds since the start of the
   // run.
@@ -57,7 +58,7 @@ class Rank {
   // in seconds since the start of the run. Infinity: never.
   double next_send_time() const {
     return ended_ ? parent_.reports_at()
-                  : std::min(parent_.reports_at(), bound_broadcast_.next_send_time());
+                  : std::min(parent_.reports_at(), learned_bounds_.next_send_time());
   }
 
   // Sends the current statistics, including `counters`, those of the workers. Must not be called
@@ -76,6 +77,22 @@ class Rank {
     int from;
     message::NodeBatch batch;
   };
+  // The trees of the run as received from the coordinator.
+  struct ReceivedTrees {
+    AgentStopsCache stops;
+    Trees trees;                             // must outlive everything that holds their nodes
+    std::map<std::uint32_t, NodePtr> roots;  // by tree number
+  };
+  // On a rank the coordinator instantiates the trees and observes the run.
+  struct AtCoordinator {
+    TreeSupply trees;       // supplies none
+    WorkObserver observer;  // does nothing
+  };
+  // What the rank has handled of the coordinator's orders.
+  struct Handled {
+    std::int32_t epoch = 0;     // Restart messages
+    std::int64_t assigned = 0;  // AssignNodes messages
+  };
 
   void receive_batch(int from, message::NodeBatch& batch);
   void receive_deferred();
@@ -83,14 +100,13 @@ class Rank {
   void send_nodes(const message::SendNodes& order);
   bool keeps_next() const;
   void favor_splitting();
-  void release(const message::ReleaseCustody& release);
   void accept(const message::AssignNodes& assigned);
+  void accept(const message::NewTree& tree);
   void gather();
   void send_part();
   void send_found();
   void send_component_messages();
   void send_learned_bounds(double now);
-  void receive(message::LearnedBounds& facts);
   void push(const std::vector<NodeRecord>& records, const std::vector<GroupBound>& findings);
   void restart(Cost proven);
   message::Status status() const;
@@ -98,47 +114,22 @@ class Rank {
   bool is_wanted(Cost bound) const;
   void send(int rank, const message::Message& message);
 
-  const Problem& problem_;
-  const Omega omega_;
-  const Limits& limits_;
   Transport& transport_;
   const Hierarchy hierarchy_;
   ParentLink parent_;
   LocalNodes nodes_;
-  AgentStopsCache stops_;
-  Trees trees_;  // must outlive everything that holds nodes of the trees
+  ReceivedTrees trees_;
   RemoteBounds shared_bounds_;
-  TreeSupply remote_trees_;  // supplies no tree: the coordinator instantiates them
-  WorkObserver unwatched_;   // does nothing: the coordinator observes the run
+  AtCoordinator at_coordinator_;
   Components components_;
-
-  std::map<std::uint32_t, NodePtr> roots_;  // by tree number
-  TreeIndex trees_of_bounds_;
-  BoundBroadcast bound_broadcast_;
-  std::int32_t epoch_ = 0;
-  std::int64_t assigned_ = 0;
-  std::vector<DeferredBatch> held_;
-
-  struct Peer {
-    std::int64_t sent = 0;   // batches
-    std::int64_t taken = 0;  // batches received from there
-    bool news = false;       // true: `taken` changed since the last status
-    std::map<std::int64_t, std::vector<NodePtr>> custody;  // by batch number
-  };
-  std::map<int, Peer> peers_;
-  std::int64_t in_custody_ = 0;         // number of nodes in custody
+  LearnedBoundExchange learned_bounds_;
+  Custody custody_;
+  DirectMessages direct_messages_;
+  Handled handled_;
+  std::vector<DeferredBatch> deferred_;
   std::int64_t cached_only_until_ = 0;  // value of `expanded` at which kCachedOnly ends
-  std::int64_t nodes_sent_ = 0;
-  std::int64_t learned_bounds_sent_ = 0;
-
-  std::vector<NodePtr> gathered_;  // nodes of the snapshot not yet sent to rank 0
-
+  std::vector<NodePtr> gathered_;       // nodes of the snapshot not yet sent to rank 0
   bool ended_ = false;
-  // Numbers of messages directly from rank to rank: sent to each rank, received here, and to be
-  // received here in total (set at shutdown).
-  std::map<std::int32_t, std::int64_t> messages_sent_;
-  std::int64_t received_messages_ = 0;
-  std::optional<std::int64_t> expected_messages_;
 };
 
 }  // namespace grove::detail

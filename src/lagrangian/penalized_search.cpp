@@ -38,9 +38,9 @@ ScaledCost PenalizedSearch::search(SequenceStages& goals, std::span<const Amount
   best_.reset();
   labels_.clear();
   rests_.clear();
-  if (++stamp_ == 0) {
-    marks_.clear();
-    stamp_ = 1;
+  if (++marks_.stamp == 0) {
+    marks_.of.clear();
+    marks_.stamp = 1;
   }
   compute_end_bounds();
   start();
@@ -130,12 +130,12 @@ void PenalizedSearch::arrive(std::uint32_t from, State state, StageId stage, Amo
 // Creates or improves the label of a state and stage at time_. Returns the distance from there to a
 // state of rest, or kNever if the label is dropped.
 Time PenalizedSearch::reach(std::uint32_t from, State state, StageId stage, Amount paid) {
-  if (static_cast<std::size_t>(stage) >= marks_.size())
-    marks_.resize(static_cast<std::size_t>(stage) + 1);
-  std::vector<Mark>& plane = marks_[stage];
+  if (static_cast<std::size_t>(stage) >= marks_.of.size())
+    marks_.of.resize(static_cast<std::size_t>(stage) + 1);
+  std::vector<Mark>& plane = marks_.of[stage];
   if (plane.empty()) plane.resize(static_cast<std::size_t>(world_.state_count()));
   Mark& mark = plane[state];
-  if (mark.stamp != stamp_) mark = {kNone, -1, goals_->distance(stage, state), stamp_};
+  if (mark.stamp != marks_.stamp) mark = {kNone, -1, goals_->distance(stage, state), marks_.stamp};
   if (mark.distance >= kNever || time_ > latest_ - mark.distance ||
       paid + to_pay(mark.distance, time_) >= below_)
     return kNever;

@@ -70,6 +70,12 @@ class PenalizedSearch {
     std::uint32_t stamp;
   };
 
+  // The marks of this call are those with the current stamp.
+  struct Marks {
+    std::vector<std::vector<Mark>> of;  // by stage, then state
+    std::uint32_t stamp = 0;
+  };
+
   bool may_arrive(Place from, Place to) const {
     return others_ == nullptr || others_->may_arrive(from, to, time_);
   }
@@ -90,8 +96,7 @@ class PenalizedSearch {
 
   const Penalties& penalties_;
   const World& world_;
-  std::vector<std::vector<Mark>> marks_;  // by stage, then state
-  std::uint32_t stamp_ = 0;
+  Marks marks_;
   std::vector<Label> labels_;                                 // in ascending order of time
   std::vector<std::pair<Place, std::vector<Amount>>> rests_;  // penalty of rest by arrival time
   std::vector<Amount> end_bounds_;                            // see compute_end_bounds()
