@@ -96,9 +96,10 @@ void Lacam::start(const Problem& problem) {
     ways.push_back(agents_[i].distance(places_[i].stage, start));
   }
   if (std::ranges::any_of(ways, [](Time way) { return way >= kNever; })) return;
-  by_distance_.resize(agents());
-  std::iota(by_distance_.begin(), by_distance_.end(), 0);
-  std::ranges::stable_sort(by_distance_, std::greater(), [&](AgentIndex i) { return ways[i]; });
+  std::vector<AgentIndex>& by_distance = ranking_.by_distance;
+  by_distance.resize(agents());
+  std::iota(by_distance.begin(), by_distance.end(), 0);
+  std::ranges::stable_sort(by_distance, std::greater(), [&](AgentIndex i) { return ways[i]; });
   add_node(configurations_.insert(places_), -1);
 }
 
@@ -145,22 +146,22 @@ void Lacam::expand(Id id) {
   const ConstraintId constraint = take_constraint(id);
   branch(id, constraint);
   collect_constraints(constraint);
-  const auto states = generator_.step(configurations_[id], ranking_, orders_, dice_);
+  const auto states = generator_.step(configurations_[id], ranking_.agents, orders_, dice_);
   if (!states.empty()) arrive(id, states);
 }
 
 void Lacam::rank_agents(Id id) {
-  if (ranked_ == id) return;
-  ranked_ = id;
-  ranking_ = by_distance_;
+  if (ranking_.of == id) return;
+  ranking_.of = id;
+  ranking_.agents = ranking_.by_distance;
   const std::span<const Age> ages = ages_[id];
-  std::ranges::stable_sort(ranking_, std::greater(), [&](AgentIndex i) { return ages[i]; });
+  std::ranges::stable_sort(ranking_.agents, std::greater(), [&](AgentIndex i) { return ages[i]; });
 }
 
 void Lacam::branch(Id id, ConstraintId constraint) {
   const std::int32_t depth = constraints_[constraint].depth;
   if (depth == static_cast<std::int32_t>(agents())) return;
-  const AgentIndex agent = ranking_[depth];
+  const AgentIndex agent = ranking_.agents[depth];
   const AgentState from = configurations_[id][agent];
   next_.assign(1, from.state);
   for (const State state : instance_.world().moves(from.state))
@@ -175,7 +176,7 @@ void Lacam::collect_constraints(ConstraintId constraint) {
   orders_.clear();
   for (; constraints_[constraint].depth > 0; constraint = constraints_[constraint].above)
     orders_.push_back(
-        {ranking_[constraints_[constraint].depth - 1], constraints_[constraint].state});
+        {ranking_.agents[constraints_[constraint].depth - 1], constraints_[constraint].state});
 }
 
 void Lacam::arrive(Id from, std::span<const State> states) {
