@@ -132,6 +132,8 @@ void Improver::put(const Plan& plan, PlanSource source) {
 void Improver::take_over(PlannedPaths& planned) {
   paths_.clear();
   for (AgentIndex agent = 0; agent < agents(); ++agent) paths_.put(agent, planned.take(agent));
+  GROVE_CHECK(planned.cost() == 0 && planned.reservations().count() == 0,
+              "all paths must be taken over");
   begin_plan(PlanSource::kPrioritizedPlanning);
   states_.enter(Lns{guidance()});
 }

@@ -55,6 +55,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/assert.h"
 #include "model/plan.h"
 
 namespace grove::detail {
@@ -134,6 +135,7 @@ void Lacam::add_constraint(Id id, ConstraintId above, State state, std::int32_t 
 }
 
 Lacam::ConstraintId Lacam::take_constraint(Id id) {
+  GROVE_ASSERT(nodes_[id].first != kNone, "only a configuration with constraints left is expanded");
   return std::exchange(nodes_[id].first, constraints_[nodes_[id].first].next);
 }
 
@@ -160,6 +162,7 @@ void Lacam::rank_agents(Id id) {
 
 void Lacam::branch(Id id, ConstraintId constraint) {
   const std::int32_t depth = constraints_[constraint].depth;
+  GROVE_ASSERT(ranking_.of == id, "constraints must follow the ranking of their configuration");
   if (depth == static_cast<std::int32_t>(agents())) return;
   const AgentIndex agent = ranking_.agents[depth];
   const AgentState from = configurations_[id][agent];
@@ -177,6 +180,8 @@ void Lacam::collect_constraints(ConstraintId constraint) {
   for (; constraints_[constraint].depth > 0; constraint = constraints_[constraint].above)
     orders_.push_back(
         {ranking_.agents[constraints_[constraint].depth - 1], constraints_[constraint].state});
+  GROVE_ASSERT(orders_.empty() || orders_.back().agent == ranking_.agents.front(),
+               "the constraints of a node must begin with the agent of highest priority");
 }
 
 void Lacam::arrive(Id from, std::span<const State> states) {
@@ -202,6 +207,9 @@ void Lacam::add_node(Id id, Id parent) {
   nodes_.push_back({parent, kNone, kNone});
   const std::span<Age> ages = ages_.add();
   for (std::size_t i = 0; i < agents(); ++i) ages[i] = age_of(i, parent, places_[i]);
+  GROVE_ASSERT(id + 1 == configurations_.count() && std::ssize(nodes_) == configurations_.count() &&
+                   ages_.count() == configurations_.count(),
+               "each configuration must have one node and one row of ages");
   add_constraint(id, kNone, kNoState, 0);
   stack_.push_back(id);
   if (is_end(id)) plan_ = make_plan(id);
@@ -220,6 +228,7 @@ Plan Lacam::make_plan(Id end) {
   std::vector<Id> way;
   for (Id id = end; id >= 0; id = nodes_[id].parent) way.push_back(id);
   std::ranges::reverse(way);
+  GROVE_CHECK(way.front() == 0, "a plan must begin at the start configuration");
   Plan plan;
   for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
     Path path;
