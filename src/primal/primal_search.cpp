@@ -3,38 +3,42 @@
 // others), then a first plan, then large neighbourhood search (LNS) from that plan.
 //
 // *States.* Two state machines run side by side: the planner (planner.h) and the improver
-// (improver.h). A step advances one of them. Any other transition fails an assertion.
+// (improver.h). Each piece of work goes to one of them. "-": the state owns no data. A transition
+// that is not in these tables fails an assertion.
 //
-//   planner      owns                       transition when                          to
-//   individual   next agent, adopted plan   every agent has an individual path       first round
-//   first round  efforts, patience          prioritised planning has all paths       idle
-//   idle                                    LNS has stalled                          later round
-//   later round  efforts, patience          prioritised planning has all paths, or   idle
-//                                           a plan is adopted
+//   planner      owns                       transition when                              to
+//   individual   next agent, adopted plan   every agent has an individual path           first
+//   round first round  efforts, label limit       prioritised planning has a plan              idle
+//   idle         -                          LNS has stalled                              later
+//   round later round  efforts, label limit       prioritised planning has a plan              idle
+//                                           a plan is adopted                            idle
 //
-//   improver     owns                       transition when                          to
-//   waiting                                 planner's plan, or adopted plan          LNS
-//   LaCAM        LaCAM                      LaCAM has failed                         waiting
-//                                           expensive plan of LaCAM, or adopted      guided
-//                                           other plan of LaCAM, or adopted;         LNS
-//                                           planner's plan
-//   guided       traffic-guided LaCAM,      no gain in several rounds, or memory     LNS
-//                rounds without gain        is short; planner's plan
-//   LNS          guidance                   expensive plan adopted, if guidance is   guided
-//                                           possible
-//                                           other plan adopted; planner's plan       LNS
+//   improver     owns                       transition when                              to
+//   waiting      -                          a plan is adopted or taken over              LNS
+//   LaCAM        LaCAM                      LaCAM fails                                  waiting
+//                                           an expensive plan is found or adopted        guided
+//                                           another plan is found, adopted or taken      LNS
+//                                           over
+//   guided       traffic-guided LaCAM,      several rounds bring no gain                 LNS
+//                rounds without gain        memory is short                              LNS
+//                                           a plan is taken over                         LNS
+//   LNS          use of guidance            an expensive plan is adopted, and            guided
+//                                           guidance is possible
+//                                           another plan is adopted or taken over        LNS
 //
-// The improver has a current plan in the states guided and LNS. Its first state is waiting if LaCAM
-// is not possible. Guidance is possible after the transition from LaCAM to LNS; it is impossible
-// after waiting, and done after guided. Combinations of states:
+// A plan of prioritised planning is *taken over*, an expensive one (kMinLossForGuidance), too. A
+// plan of another search is *adopted*; during individual planning it waits in the planner. The
+// improver begins in the state waiting if LaCAM is not possible. Guidance is possible after the
+// transition from LaCAM to LNS. It is impossible after waiting, and done after guided.
+//
+// The improver has a current plan in the states guided and LNS. Without one, individual or
+// prioritised planning is in progress. These combinations of states occur:
 //
 //                waiting   LaCAM   guided   LNS
 //   individual      x        x
 //   first round     x        x        x      x
 //   idle                              x      x
 //   later round                              x
-//
-// So without a plan prioritised planning is in progress, or individual planning.
 //
 // *Rounds.* LNS improves a plan quickly at first and then stalls in a local optimum; different
 // seeds end in different optima. Therefore a new round starts, with prioritised planning, when LNS
