@@ -6,29 +6,29 @@
 // (improver.h). Each piece of work goes to one of them. "-": the state owns no data. A transition
 // that is not in these tables fails an assertion.
 //
-//   planner      owns                       transition when                              to
-//   individual   next agent, adopted plan   every agent has an individual path           first
-//   round first round  efforts, label limit       prioritised planning has a plan              idle
-//   idle         -                          LNS has stalled                              later
-//   round later round  efforts, label limit       prioritised planning has a plan              idle
-//                                           a plan is adopted                            idle
+//   planner      owns                     transition when                            to
+//   individual   next agent, adopted plan every agent has an individual path         first round
+//   first round  efforts, label limit     prioritised planning has a plan            idle
+//   idle         -                        LNS has stalled                            later round
+//   later round  efforts, label limit     prioritised planning has a plan            idle
+//                                         a plan is adopted                          idle
 //
-//   improver     owns                       transition when                              to
-//   waiting      -                          a plan is adopted or taken over              LNS
-//   LaCAM        LaCAM                      LaCAM fails                                  waiting
-//                                           an expensive plan is found or adopted        guided
-//                                           another plan is found, adopted or taken      LNS
-//                                           over
-//   guided       traffic-guided LaCAM,      several rounds bring no gain                 LNS
-//                rounds without gain        memory is short                              LNS
-//                                           a plan is taken over                         LNS
-//   LNS          use of guidance            an expensive plan is adopted, and            guided
-//                                           guidance is possible
-//                                           another plan is adopted or taken over        LNS
+//   improver     owns                     transition when                            to
+//   waiting      -                        a plan is adopted or taken over            LNS
+//   LaCAM        LaCAM                    LaCAM fails                                waiting
+//                                         an expensive plan is found or adopted      guided
+//                                         another plan is found, adopted, taken over LNS
+//   guided       traffic-guided LaCAM,    several rounds bring no gain               LNS
+//                rounds without gain      memory is short                            LNS
+//                                         a plan is taken over                       LNS
+//   LNS          use of guidance          an expensive plan is adopted, and guidance guided
+//                                         is possible
+//                                         another plan is adopted or taken over      LNS
 //
-// A plan of prioritised planning is *taken over*, an expensive one (kMinLossForGuidance), too. A
-// plan of another search is *adopted*; during individual planning it waits in the planner. The
-// improver begins in the state waiting if LaCAM is not possible. Guidance is possible after the
+// A plan of prioritised planning is *taken over* by the improver. A plan of another search is
+// *adopted*; during individual planning it waits in the planner. A plan is *expensive* if its cost
+// exceeds the sum of individual costs by kMinLossForGuidance or more. The improver begins in the
+// state waiting if LaCAM is not possible, else in the state LaCAM. Guidance is possible after the
 // transition from LaCAM to LNS. It is impossible after waiting, and done after guided.
 //
 // The improver has a current plan in the states guided and LNS. Without one, individual or
