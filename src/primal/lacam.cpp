@@ -55,6 +55,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/assert.h"
 #include "model/plan.h"
 
 namespace grove::detail {
@@ -96,9 +97,10 @@ void Lacam::start(const Problem& problem) {
     ways.push_back(agents_[i].distance(places_[i].stage, start));
   }
   if (std::ranges::any_of(ways, [](Time way) { return way >= kNever; })) return;
-  by_distance_.resize(agents());
-  std::iota(by_distance_.begin(), by_distance_.end(), 0);
-  std::ranges::stable_sort(by_distance_, std::greater(), [&](AgentIndex i) { return ways[i]; });
+  std::vector<AgentIndex>& by_distance = ranking_.by_distance;
+  by_distance.resize(agents());
+  std::iota(by_distance.begin(), by_distance.end(), 0);
+  std::ranges::stable_sort(by_distance, std::greater(), [&](AgentIndex i) { return ways[i]; });
   add_node(configurations_.insert(places_), -1);
 }
 
@@ -133,6 +135,7 @@ void Lacam::add_constraint(Id id, ConstraintId above, State state, std::int32_t 
 }
 
 Lacam::ConstraintId Lacam::take_constraint(Id id) {
+  GROVE_ASSERT(nodes_[id].first != kNone, "only a configuration with constraints left is expanded");
   return std::exchange(nodes_[id].first, constraints_[nodes_[id].first].next);
 }
 
@@ -145,22 +148,23 @@ void Lacam::expand(Id id) {
   const ConstraintId constraint = take_constraint(id);
   branch(id, constraint);
   collect_constraints(constraint);
-  const auto states = generator_.step(configurations_[id], ranking_, orders_, dice_);
+  const auto states = generator_.step(configurations_[id], ranking_.agents, orders_, dice_);
   if (!states.empty()) arrive(id, states);
 }
 
 void Lacam::rank_agents(Id id) {
-  if (ranked_ == id) return;
-  ranked_ = id;
-  ranking_ = by_distance_;
+  if (ranking_.of == id) return;
+  ranking_.of = id;
+  ranking_.agents = ranking_.by_distance;
   const std::span<const Age> ages = ages_[id];
-  std::ranges::stable_sort(ranking_, std::greater(), [&](AgentIndex i) { return ages[i]; });
+  std::ranges::stable_sort(ranking_.agents, std::greater(), [&](AgentIndex i) { return ages[i]; });
 }
 
 void Lacam::branch(Id id, ConstraintId constraint) {
   const std::int32_t depth = constraints_[constraint].depth;
+  GROVE_ASSERT(ranking_.of == id, "constraints must follow the ranking of their configuration");
   if (depth == static_cast<std::int32_t>(agents())) return;
-  const AgentIndex agent = ranking_[depth];
+  const AgentIndex agent = ranking_.agents[depth];
   const AgentState from = configurations_[id][agent];
   next_.assign(1, from.state);
   for (const State state : instance_.world().moves(from.state))
@@ -175,7 +179,9 @@ void Lacam::collect_constraints(ConstraintId constraint) {
   orders_.clear();
   for (; constraints_[constraint].depth > 0; constraint = constraints_[constraint].above)
     orders_.push_back(
-        {ranking_[constraints_[constraint].depth - 1], constraints_[constraint].state});
+        {ranking_.agents[constraints_[constraint].depth - 1], constraints_[constraint].state});
+  GROVE_ASSERT(orders_.empty() || orders_.back().agent == ranking_.agents.front(),
+               "the constraints of a node must begin with the agent of highest priority");
 }
 
 void Lacam::arrive(Id from, std::span<const State> states) {
@@ -201,6 +207,9 @@ void Lacam::add_node(Id id, Id parent) {
   nodes_.push_back({parent, kNone, kNone});
   const std::span<Age> ages = ages_.add();
   for (std::size_t i = 0; i < agents(); ++i) ages[i] = age_of(i, parent, places_[i]);
+  GROVE_ASSERT(id + 1 == configurations_.count() && std::ssize(nodes_) == configurations_.count() &&
+                   ages_.count() == configurations_.count(),
+               "each configuration must have one node and one row of ages");
   add_constraint(id, kNone, kNoState, 0);
   stack_.push_back(id);
   if (is_end(id)) plan_ = make_plan(id);
@@ -219,6 +228,7 @@ Plan Lacam::make_plan(Id end) {
   std::vector<Id> way;
   for (Id id = end; id >= 0; id = nodes_[id].parent) way.push_back(id);
   std::ranges::reverse(way);
+  GROVE_CHECK(way.front() == 0, "a plan must begin at the start configuration");
   Plan plan;
   for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
     Path path;

@@ -56,6 +56,13 @@ class Lacam {
     ConstraintId last;
   };
 
+  // The agents by priority in a configuration.
+  struct Ranking {
+    Id of = -1;
+    std::vector<AgentIndex> agents;
+    std::vector<AgentIndex> by_distance;  // at the start, longest first: breaks ties
+  };
+
   std::size_t agents() const { return agents_.size(); }
   bool has_room(const Limits& limits) const;
   void start(const Problem& problem);
@@ -88,10 +95,7 @@ class Lacam {
   bool is_guided_;
 
   // Data of the configuration that is being expanded.
-  Id ranked_ = -1;
-  std::vector<AgentIndex> ranking_;  // agents by priority
-  std::vector<AgentIndex>
-      by_distance_;  // agents by distance at the start, longest first: breaks ties
+  Ranking ranking_;
   std::vector<LacamConstraint> orders_;
   std::vector<AgentState> places_;
   std::vector<State> next_;

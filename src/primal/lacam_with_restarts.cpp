@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "model/assert.h"
 #include "primal/lacam.h"
 
 namespace grove::detail {
@@ -28,6 +29,7 @@ class LacamWithRestarts::Search {
       std::int64_t unused = allowed;
       const Outcome outcome = lacam_->run(limits, unused);
       const std::int64_t made = allowed - unused;
+      GROVE_CHECK(0 <= made && made <= allowed, "a search must keep to its slice");
       slice -= made;
       left_ -= made;
       steps_made_ += made;

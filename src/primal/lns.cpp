@@ -51,6 +51,8 @@
 #include <span>
 #include <utility>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -79,7 +81,13 @@ void LargeNeighborhoodSearch::step(const Limits& limits) {
     old_paths_.push_back(paths_.take(agent));
   }
   const Cost others = paths_.cost();
-  if (!replan(agents, old_cost + worse_allowed(others + old_cost), repair, limits)) restore(agents);
+  const Cost cutoff = old_cost + worse_allowed(others + old_cost);
+  if (replan(agents, cutoff, repair, limits)) {
+    GROVE_CHECK(paths_.cost() <= others + cutoff, "new paths must not cost more than the cutoff");
+  } else {
+    restore(agents);
+    GROVE_CHECK(paths_.cost() == others + old_cost, "restored paths must have their old cost");
+  }
   const Cost gain = std::max<Cost>(0, others + old_cost - paths_.cost());
   neighborhoods_.reward(gain);
   const std::int64_t work = low_level_.work() - work_before;

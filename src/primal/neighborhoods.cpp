@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "model/assert.h"
 #include "primal/planned_paths.h"
 
 namespace grove::detail {
@@ -46,6 +47,8 @@ const std::vector<AgentIndex>& Neighborhoods::choose() {
   if (kind_ == kMapBased) add_around_spot();
   if (kind_ == kReducedCost) add_by_reduced_cost();
   if (std::ssize(chosen_) < kFew) add_anyone();
+  GROVE_CHECK(!chosen_.empty() && std::ssize(chosen_) <= wanted_,
+              "a neighbourhood must have 1 to `wanted_` agents");
   random_.shuffle(chosen_);
   return chosen_;
 }
@@ -90,6 +93,7 @@ void Neighborhoods::add_delayed() {
   add(agent);
   add_blocking_agents(agent, low_level_.individual_path(agent), 0);
   const Time delay = paths_.cost(agent) - low_level_.individual_cost(agent);
+  GROVE_ASSERT(delay > 0, "only a delayed agent may be drawn");
   for (int tries = 0; tries < kAgentBasedTries && !full(); ++tries) {
     const AgentIndex member = chosen_[random_.below(chosen_.size())];
     add_blocking_agents(member, low_level_.individual_path(member), random_.below(delay + 1));
@@ -134,26 +138,28 @@ void Neighborhoods::add_by_reduced_cost() {
 void Neighborhoods::update_reduced_costs() {
   const DualSolution& dual_solution = *low_level_.dual_solution();
   const auto agents = paths_.paths().size();
-  if (seen_prices_ != low_level_.price_changes()) {
-    seen_prices_ = low_level_.price_changes();
-    reduced_cost_.resize(agents);
-    seen_versions_.assign(agents, 0);
+  auto& [prices, reduced_cost, versions] = reduced_costs_;
+  if (prices != low_level_.price_changes()) {
+    prices = low_level_.price_changes();
+    reduced_cost.resize(agents);
+    versions.assign(agents, 0);
   }
   for (AgentIndex agent = 0; agent < std::ssize(paths_.paths()); ++agent) {
-    if (seen_versions_[agent] == paths_.version(agent)) continue;
-    seen_versions_[agent] = paths_.version(agent);
-    reduced_cost_[agent] =
+    if (versions[agent] == paths_.version(agent)) continue;
+    versions[agent] = paths_.version(agent);
+    reduced_cost[agent] =
         std::max<ScaledCost>(0, dual_solution.multipliers.price(agent, paths_.path(agent)) -
                                     dual_solution.values[agent]);
   }
 }
 
 AgentIndex Neighborhoods::agent_by_reduced_cost() {
-  const ScaledCost sum = std::accumulate(reduced_cost_.begin(), reduced_cost_.end(), ScaledCost{0});
+  const std::vector<ScaledCost>& costs = reduced_costs_.of;
+  const ScaledCost sum = std::accumulate(costs.begin(), costs.end(), ScaledCost{0});
   if (sum <= 0) return ReservationTable::kNoAgent;
   ScaledCost at = random_.below(sum);
   AgentIndex agent = 0;
-  while ((at -= reduced_cost_[agent]) >= 0) ++agent;
+  while ((at -= costs[agent]) >= 0) ++agent;
   return agent;
 }
 
@@ -169,17 +175,18 @@ void Neighborhoods::add_around_spot() {
   const World& world = problem_.instance.world();
   const Path& path = paths_.path(random_.below(problem_.instance.agent_count()));
   const auto time = static_cast<Time>(random_.below(path.size()));
-  seen_at_.resize(static_cast<std::size_t>(world.place_count()), 0);
-  ++search_;
-  queue_.assign(1, world.place(path[time]));
-  seen_at_[queue_.front()] = search_;
-  for (std::size_t next = 0; next < queue_.size() && !full(); ++next) {
-    const Place place = queue_[next];
+  auto& [queue, reached_by, number] = near_;
+  reached_by.resize(static_cast<std::size_t>(world.place_count()), 0);
+  ++number;
+  queue.assign(1, world.place(path[time]));
+  reached_by[queue.front()] = number;
+  for (std::size_t next = 0; next < queue.size() && !full(); ++next) {
+    const Place place = queue[next];
     add_visitors(place, time);
     for (Place neighbor : world.neighbors(place)) {
-      if (seen_at_[neighbor] == search_) continue;
-      seen_at_[neighbor] = search_;
-      queue_.push_back(neighbor);
+      if (reached_by[neighbor] == number) continue;
+      reached_by[neighbor] = number;
+      queue.push_back(neighbor);
     }
   }
 }

@@ -36,6 +36,19 @@ class Neighborhoods {
   static constexpr int kKinds = 4;
   static constexpr std::int64_t kFew = 2;  // smaller neighbourhoods get random agents
 
+  // The reduced costs of the agents' paths under the multipliers of a dual solution.
+  struct ReducedCosts {
+    int prices = 0;                      // PrimalLowLevel::price_changes() of the dual solution
+    std::vector<ScaledCost> of;          // by agent
+    std::vector<std::int64_t> versions;  // by agent: version of the path
+  };
+  // Breadth-first search over places.
+  struct PlaceSearch {
+    std::vector<Place> queue;
+    std::vector<std::int32_t> reached_by;  // by place: the last search that reached it
+    std::int32_t number = 0;               // of the current search
+  };
+
   std::int64_t max_size() const;
   Kind choose_kind();
   void add(AgentIndex agent);
@@ -63,12 +76,8 @@ class Neighborhoods {
   std::int64_t wanted_ = 0;
   std::int64_t failures_ = 0;  // neighbourhoods since the last cost reduction
   std::vector<AgentIndex> chosen_;
-  int seen_prices_ = 0;                      // PrimalLowLevel::price_changes() of reduced_cost_
-  std::vector<ScaledCost> reduced_cost_;     // by agent: reduced cost of its path
-  std::vector<std::int64_t> seen_versions_;  // by agent: version of the path of reduced_cost_
-  std::vector<Place> queue_;
-  std::vector<std::int32_t> seen_at_;  // by place: the last breadth-first search that reached it
-  std::int32_t search_ = 0;
+  ReducedCosts reduced_costs_;
+  PlaceSearch near_;
 };
 
 }  // namespace grove::detail

@@ -16,6 +16,8 @@
 
 #include <algorithm>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 
 PibtGenerator::PibtGenerator(const World& world, std::vector<VisitStages>& agents)
@@ -33,17 +35,26 @@ std::span<const State> PibtGenerator::step(std::span<const AgentState> from,
   from_ = from;
   dice_ = &dice;
   std::ranges::fill(to_, kNoState);
-  for (std::size_t agent = 0; agent < from.size(); ++agent)
-    now_[world_.place(from[agent].state)] = static_cast<AgentIndex>(agent);
+  for (std::size_t agent = 0; agent < from.size(); ++agent) {
+    AgentIndex& there = now_[world_.place(from[agent].state)];
+    GROVE_ASSERT(there == kNoAgent, "a place must hold at most one agent");
+    there = static_cast<AgentIndex>(agent);
+  }
   const bool done = apply(constraints) && std::ranges::all_of(priority, [&](AgentIndex agent) {
                       return to_[agent] != kNoState || push(agent);
                     });
+  GROVE_ASSERT(candidates_.empty(), "no agent may be choosing after a joint step");
+  if (done)
+    for (std::size_t agent = 0; agent < from.size(); ++agent)
+      GROVE_ASSERT(is_possible(static_cast<AgentIndex>(agent)),
+                   "agents must not collide in a joint step");
   clear();
   return done ? std::span<const State>(to_) : std::span<const State>();
 }
 
 bool PibtGenerator::apply(std::span<const LacamConstraint> constraints) {
   return std::ranges::all_of(constraints, [&](const LacamConstraint& order) {
+    GROVE_ASSERT(to_[order.agent] == kNoState, "an agent must have at most one constraint");
     if (collides(order.agent, order.state)) return false;
     move(order.agent, order.state);
     return true;
@@ -110,6 +121,14 @@ bool PibtGenerator::collides(AgentIndex agent, State state) const {
   const AgentIndex there = now_[place];
   return there != kNoAgent && there != agent && to_[there] != kNoState &&
          world_.place(to_[there]) == world_.place(from_[agent].state);
+}
+
+// True if the decided move of `agent` does not collide, neither on its new place nor on the way.
+bool PibtGenerator::is_possible(AgentIndex agent) const {
+  if (to_[agent] == kNoState || later_[world_.place(to_[agent])] != agent) return false;
+  const AgentIndex there = now_[world_.place(to_[agent])];
+  return there == kNoAgent || there == agent ||
+         world_.place(to_[there]) != world_.place(from_[agent].state);
 }
 
 void PibtGenerator::move(AgentIndex agent, State state) {

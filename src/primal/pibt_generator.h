@@ -45,6 +45,7 @@ class PibtGenerator {
   void pull(AgentIndex agent, State state);
   void rank_candidates(AgentIndex agent);
   bool collides(AgentIndex agent, State state) const;
+  bool is_possible(AgentIndex agent) const;
   void move(AgentIndex agent, State state);
   void clear();
 

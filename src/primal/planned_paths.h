@@ -44,6 +44,7 @@ class PlannedPaths {
     GROVE_ASSERT(!paths_[agent].empty(), "a path must exist before it is taken");
     cost_ -= cost(agent);
     steps_moved_ += static_cast<std::int64_t>(paths_[agent].size());
+    GROVE_ASSERT(cost_ >= 0, "the cost of the paths must not become negative");
     reservations_.remove(agent, paths_[agent]);
     return std::exchange(paths_[agent], {});
   }

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/assert.h"
 #include "search/node.h"
 #include "sequencing/cost_matrix.h"
 #include "sequencing/good_sequence.h"
@@ -60,7 +61,12 @@ bool PrimalLowLevel::follow_good_sequence(AgentIndex agent, const Limits& limits
 PathOutcome PrimalLowLevel::find(AgentIndex agent, const PathQuery& query, const Limits& limits,
                                  Path& path) {
   ++calls_;
-  return low_level_.find(goals(agent), query, limits, path);
+  const PathOutcome outcome = low_level_.find(goals(agent), query, limits, path);
+  GROVE_ASSERT(
+      outcome != PathOutcome::kFound || (path.front() == problem_.instance.agent(agent).start &&
+                                         std::ssize(path) - 1 <= query.cutoff),
+      "a path must begin at the agent's start and keep to the cutoff");
+  return outcome;
 }
 
 void PrimalLowLevel::use(std::shared_ptr<const DualSolution> dual_solution) {
@@ -75,6 +81,7 @@ void PrimalLowLevel::improve(AgentIndex agent, const ReservationTable& others, T
   const Multipliers& multipliers = dual_solution_->multipliers;
   priced_->improve(goals(agent), multipliers.on_finish(agent), others, latest,
                    multipliers.price(agent, path), kMaxPricedLabels, limits, path);
+  GROVE_ASSERT(std::ssize(path) - 1 <= latest, "an improved path must finish by `latest`");
 }
 
 Plan PrimalLowLevel::plan(const std::vector<Path>& paths) {
@@ -83,6 +90,7 @@ Plan PrimalLowLevel::plan(const std::vector<Path>& paths) {
     const Path& path = paths[agent];
     const Sequence sequence = realized_sequence(goals(agent), path);
     plan.agents.push_back(agent_plan(problem_.instance, agent, sequence, path));
+    GROVE_ASSERT(plan.agents.back().cost < std::ssize(path), "an agent must finish on its path");
     plan.cost += plan.agents.back().cost;
   }
   return plan;

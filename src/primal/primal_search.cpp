@@ -2,12 +2,50 @@
 // Schedule of the primal search: individual planning of every agent (its best path without the
 // others), then a first plan, then large neighbourhood search (LNS) from that plan.
 //
+// *States.* Two state machines run side by side: the planner (planner.h) and the improver
+// (improver.h). Each piece of work goes to one of them. "-": the state owns no data. A transition
+// that is not in these tables fails an assertion.
+//
+//   planner      owns                     transition when                            to
+//   individual   next agent, adopted plan every agent has an individual path         first round
+//   first round  efforts, label limit     prioritised planning has a plan            idle
+//   idle         -                        LNS has stalled                            later round
+//   later round  efforts, label limit     prioritised planning has a plan            idle
+//                                         a plan is adopted                          idle
+//
+//   improver     owns                     transition when                            to
+//   waiting      -                        a plan is adopted or taken over            LNS
+//   LaCAM        LaCAM                    LaCAM fails                                waiting
+//                                         an expensive plan is found or adopted      guided
+//                                         another plan is found, adopted, taken over LNS
+//   guided       traffic-guided LaCAM,    several rounds bring no gain               LNS
+//                rounds without gain      memory is short                            LNS
+//                                         a plan is taken over                       LNS
+//   LNS          use of guidance          an expensive plan is adopted, and guidance guided
+//                                         is possible
+//                                         another plan is adopted or taken over      LNS
+//
+// A plan of prioritised planning is *taken over* by the improver. A plan of another search is
+// *adopted*; during individual planning it waits in the planner. A plan is *expensive* if its cost
+// exceeds the sum of individual costs by kMinLossForGuidance or more. The improver begins in the
+// state waiting if LaCAM is not possible, else in the state LaCAM. Guidance is possible after the
+// transition from LaCAM to LNS. It is impossible after waiting, and done after guided.
+//
+// The improver has a current plan in the states guided and LNS. Without one, individual or
+// prioritised planning is in progress. These combinations of states occur:
+//
+//                waiting   LaCAM   guided   LNS
+//   individual      x        x
+//   first round     x        x        x      x
+//   idle                              x      x
+//   later round                              x
+//
 // *Rounds.* LNS improves a plan quickly at first and then stalls in a local optimum; different
 // seeds end in different optima. Therefore a new round starts, with prioritised planning, when LNS
 // has spent as much effort without success as the round took to reach its best plan, and has made
 // at least max(kStallNeighborhoods, kStallNeighborhoodsPerAgent * agents) iterations since then.
 //
-// *Definition.* W is the effort of individual planning for all agents (individual_planning_work_).
+// *Definition.* W is the effort of individual planning for all agents (IndividualCosts::work).
 //
 // *First plan.* Prioritised planning has a head start: until its first failure, and for an effort
 // of at most pp_head_start*W, it gets all effort. On instances that are not dense, prioritised
@@ -39,15 +77,6 @@
 // LaCAM (expects_plan()), but no longer than its root takes. The root examines all pairs of agents,
 // so its effort is estimated as min(pp_long_attempt, W/root_work_per_individual_planning)*W.
 //
-// *Agent order.* The first order is by individual cost, lowest first. An agent may not come to rest
-// where an agent planned earlier still passes, so low-cost agents planned late would wait for
-// high-cost agents, whereas high-cost agents find paths around resting agents. Measured on maps of
-// 64x64 cells and den312d, 100 agents, 300 tasks: first plans cost 0.7 to 8 % more than the sum of
-// individual costs; in random order 8 to 14 % more, with highest cost first 12 to 18 % more. If
-// each agent that must visit another agent's destination was planned before that agent, first plans
-// cost 0.5 instead of 0.2 % more (500 agents, 3,000 tasks, warehouse). Later rounds sort by cost
-// with noise (kOrderNoise).
-//
 // *Dual solutions* of the Lagrangian bound guide only LNS. Prioritised planning with penalties, or
 // from the paths of the dual solution, yields cheaper plans than without (3,976 instead of 4,246
 // for 150 agents on random-32-32-20), but by the time a dual solution exists LNS has found cheaper
@@ -55,40 +84,29 @@
 #include "primal/primal_search.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
-#include <vector>
 
 #include "model/assert.h"
 #include "model/effort.h"
 #include "model/random.h"
-#include "primal/lacam_with_restarts.h"
-#include "primal/lns.h"
-#include "primal/planned_paths.h"
+#include "primal/best_plan.h"
+#include "primal/improver.h"
+#include "primal/planner.h"
 #include "primal/primal_low_level.h"
-#include "primal/prioritized_planning.h"
-#include "primal/traffic_guided_lacam.h"
-#include "primal/visit_orders.h"
+#include "primal/round_progress.h"
 
 namespace grove::detail {
 namespace {
 
 // Number of LaCAM steps within which a first plan is expected.
 constexpr std::int64_t kLacamExpectedSteps = 4096;
-// Rounds of traffic-guided LaCAM without a better plan after which LNS takes over.
-constexpr int kGuidedRoundsWithoutGain = 4;
-// Traffic-guided LaCAM starts if the plan costs at least this fraction more than the sum of
-// individual costs.
-constexpr double kMinLossForGuidance = 0.1;
 // Effort of the other heuristics per unit of effort of long prioritised planning.
 constexpr std::int64_t kOtherWorkPerLatePlanningWork = 8;
-constexpr std::int64_t kStallNeighborhoods = 200;  // failed neighbourhoods before a new round
-// Failed neighbourhoods per agent before a new round; both numbers must be reached.
-constexpr std::int64_t kStallNeighborhoodsPerAgent = 10;
-constexpr double kOrderNoise = 0.5;  // noise on the costs by which later rounds sort agents
 
-constexpr std::int64_t kEndless = std::numeric_limits<std::int64_t>::max();
-constexpr std::uint64_t kSeeds = std::uint64_t{1} << 32;
+// LaCAM requires following: it lets an agent enter a place in the step in which another leaves it.
+bool may_use_lacam(const Problem& problem, Techniques techniques) {
+  return techniques.has(Technique::kLacam) && problem.instance.may_follow();
+}
 
 }  // namespace
 
@@ -96,20 +114,13 @@ class PrimalSearch::Impl {
  public:
   Impl(const Problem& problem, AgentStopsCache& stops, std::uint64_t seed, Techniques techniques,
        const Tuning& tuning)
-      : problem_(problem),
-        tuning_(tuning),
-        seed_(seed),
-        // LaCAM requires following: it lets an agent enter a place in the step in which another
-        // leaves it.
-        may_step_lacam_(techniques.has(Technique::kLacam) && problem.instance.may_follow()),
-        may_guide_(may_step_lacam_),
+      : tuning_(tuning),
         agents_(problem.instance.agent_count()),
         random_(seed),
         low_level_(problem, stops),
-        paths_(problem.instance),
-        planned_(problem.instance),
-        planning_(problem.instance.world(), low_level_, planned_, random_, tuning_),
-        neighborhoods_(problem, low_level_, paths_, random_, tuning_) {}
+        planner_(problem, low_level_, random_, tuning_),
+        improver_(problem, low_level_, planner_.individual_costs(), random_, seed,
+                  may_use_lacam(problem, techniques), tuning_) {}
 
   std::optional<Plan> step(const Limits& limits);
   void adopt(const Plan& plan);
@@ -119,34 +130,28 @@ class PrimalSearch::Impl {
       low_level_.use(std::move(dual_solution));
   }
 
-  PlanSource source() const { return source_; }
+  PlanSource source() const { return best_.source(); }
   std::optional<Cost> best_cost() const {
-    return best_ < kInfiniteCost ? std::optional(best_) : std::nullopt;
+    return best_.exists() ? std::optional(best_.cost()) : std::nullopt;
   }
-  bool expects_plan() const {
-    if (!may_step_lacam_ || optimal()) return false;
-    if (best_ == kInfiniteCost) return joint_steps_ < kLacamExpectedSteps;
-    const std::int64_t factor =
-        std::min(tuning_.pp_long_attempt,
-                 individual_planning_work_ / tuning_.root_work_per_individual_planning);
-    const bool plans = planning_now_ && first_round_;
-    return (plans && planning_work_ < factor * individual_planning_work_) ||
-           (guided_ && guided_work_ < factor * individual_planning_work_);
-  }
+  bool expects_plan() const;
   bool optimal() const {
-    return individually_planned_ == agents_ && own_costs_are_minimal_ && best_ <= own_costs_;
+    const IndividualCosts& individual = planner_.individual_costs();
+    return planner_.knows_individual_costs() && individual.are_minimal &&
+           best_.cost() <= individual.sum;
   }
   std::int64_t work() const {
     return low_level_.work() +
-           (paths_.steps_moved() + planned_.steps_moved()) / effort::kMovedSteps +
-           joint_steps_ * agents_ + guided_work_;
+           (improver_.paths().steps_moved() + planner_.steps_moved()) / effort::kMovedSteps +
+           improver_.joint_work();
   }
   std::int64_t work_at_last_plan() const { return work_at_last_plan_; }
   Counts counts() const {
+    const Improver::JointSearch& joint = improver_.joint_search();
     return {steps_,
-            planning_.attempts(),
-            joint_steps_ + guided_joint_steps_,
-            neighborhoods_.steps(),
+            planner_.attempts(),
+            joint.first_plan_steps + joint.guided_steps,
+            improver_.lns_iterations(),
             low_level_.calls(),
             low_level_.expanded()};
   }
@@ -155,291 +160,156 @@ class PrimalSearch::Impl {
   // True if the best plan is within lagrangian_lns_max_gap of `bound`. With a larger gap, a dual
   // solution predicts poorly which places and times are congested.
   bool is_near(ScaledCost bound) const {
-    return static_cast<double>(best_) * Penalties::kUnit <=
+    return static_cast<double>(best_.cost()) * Penalties::kUnit <=
            (1 + tuning_.lagrangian_lns_max_gap) * static_cast<double>(bound);
   }
-  void keep_best();
+  // Effort that the root of the tree takes, estimated ("Tree search" at the head).
+  std::int64_t root_work() const {
+    const std::int64_t work = planner_.individual_costs().work;
+    return std::min(tuning_.pp_long_attempt, work / tuning_.root_work_per_individual_planning) *
+           work;
+  }
   bool may_report(const Limits& limits) const;
   void advance(const Limits& limits);
   void plan_individually(const Limits& limits);
-  void begin_round(bool first);
-  // True if LaCAM or LNS can use part of the effort.
-  bool is_raced() const { return improving_ || may_step_lacam_; }
   bool planning_is_due() const;
   void plan(const Limits& limits);
   void take_over_planned();
-  void step_lacam(const Limits& limits);
-  void begin_guiding(const Plan& plan);
-  void guide(const Limits& limits);
-  std::vector<Sequence> own_orders() const;
-  void put_all(const Plan& plan, PlanSource source);
-  void begin_improving();
   void improve(const Limits& limits);
-  bool stalled() const;
+  bool has_stalled() const {
+    return planner_.state() == Planner::State::kIdle &&
+           progress_.has_stalled(work(), improver_.lns_iterations(), agents_);
+  }
+  void begin_later_round();
+  void start_from(const Plan& plan);
+  void note_gain() { progress_.note_gain(work(), improver_.lns_iterations()); }
+  void check_states() const;
 
-  const Problem& problem_;
   const Tuning tuning_;
-  const std::uint64_t seed_;
-  bool may_step_lacam_;
-  bool may_guide_;  // traffic-guided LaCAM is possible; at most once per search
   const int agents_;
   Random random_;
   PrimalLowLevel low_level_;
-  PlannedPaths paths_;    // the plan that LNS improves, or no paths
-  PlannedPaths planned_;  // paths of prioritised planning
-  PrioritizedPlanning planning_;
-  std::unique_ptr<LacamWithRestarts> lacam_;
-  std::unique_ptr<TrafficGuidedLacam> guided_;  // while it finds cheaper plans
-  LargeNeighborhoodSearch neighborhoods_;
-
-  AgentIndex individually_planned_ = 0;  // agents from here on have no individual path yet
-  Cost own_costs_ = 0;                   // sum over the agents with an individual path
-  bool own_costs_are_minimal_ = true;
-  std::int64_t individual_planning_work_ = 0;
-  std::optional<Plan> adopted_;  // plan adopted before all individual paths were known
-  bool improving_ = false;       // there is a plan in paths_
-  Cost best_ = kInfiniteCost;
-  std::vector<Path> best_paths_;  // by agent: paths of the best plan, if it was found here
-  std::vector<std::int64_t> best_versions_;  // by agent: version of its path in best_paths_
-  Cost reported_cost_ = kInfiniteCost;       // cost of the best plan returned or adopted
-  std::int64_t work_at_last_report_ = 0;
-  PlanSource source_ = PlanSource::kPrioritizedPlanning;
-  PlanSource source_of_paths_ = PlanSource::kPrioritizedPlanning;
+  Planner planner_;
+  Improver improver_;
+  RoundProgress progress_;
+  BestPlan best_;
   std::int64_t steps_ = 0;
-  std::int64_t joint_steps_ = 0;
   std::int64_t work_at_last_plan_ = 0;
-  std::int64_t rounds_without_gain_ = 0;  // rounds of traffic-guided LaCAM without a cheaper plan
-  std::int64_t guided_work_ = 0;
-  std::int64_t guided_joint_steps_ = 0;
-  // State of the current round.
-  std::int64_t round_began_ = 0;  // value of work()
-  bool first_round_ = true;
-  bool planning_now_ = false;  // prioritised planning is in progress
-  std::int64_t patience_ = 0;  // label limit of a low-level call while is_raced()
-  std::int64_t planning_work_ = 0;
-  std::int64_t other_work_ = 0;  // effort of LaCAM and LNS in this round
-  Cost round_best_ = kInfiniteCost;
-  std::int64_t round_improved_ = 0;       // value of work()
-  std::int64_t round_improved_step_ = 0;  // LNS iteration
 };
 
 std::optional<Plan> PrimalSearch::Impl::step(const Limits& limits) {
   ++steps_;
-  const Cost before = best_;
-  if (improving_ && !planning_now_ && stalled()) begin_round(false);
+  const Cost before = best_.cost();
+  if (has_stalled()) begin_later_round();
   for (const std::int64_t end = work() + tuning_.primal_step_work; work() < end && !optimal();) {
     if (limits.stop_requested()) break;
     advance(limits);
-    if (!improving_ || paths_.cost() >= best_) continue;
-    keep_best();
-    if (source_ != PlanSource::kLns) break;
+    if (!improver_.has_plan() || improver_.paths().cost() >= best_.cost()) continue;
+    best_.keep(improver_.paths(), improver_.source());
+    if (best_.source() != PlanSource::kLns) break;
   }
-  if (best_ < before) work_at_last_plan_ = work();
-  if (best_ == reported_cost_ || !may_report(limits)) return std::nullopt;
-  reported_cost_ = best_;
-  work_at_last_report_ = work();
-  return low_level_.plan(best_paths_);
-}
-
-void PrimalSearch::Impl::keep_best() {
-  best_ = paths_.cost();
-  source_ = source_of_paths_;
-  best_paths_.resize(static_cast<std::size_t>(agents_));
-  best_versions_.resize(best_paths_.size(), 0);
-  for (AgentIndex agent = 0; agent < agents_; ++agent) {
-    if (best_versions_[agent] == paths_.version(agent)) continue;
-    best_versions_[agent] = paths_.version(agent);
-    best_paths_[agent] = paths_.path(agent);
-  }
+  check_states();
+  if (best_.cost() < before) work_at_last_plan_ = work();
+  if (!best_.is_unreported() || !may_report(limits)) return std::nullopt;
+  Plan plan = low_level_.plan(best_.report(work()));
+  GROVE_CHECK(plan.cost <= best_.cost(), "a plan must not cost more than its paths");
+  return plan;
 }
 
 // Making and checking a plan from its paths takes an effort of about one third of the plan's cost.
 // Therefore, when LNS improves a plan in many small steps, only some of the plans are returned.
 bool PrimalSearch::Impl::may_report(const Limits& limits) const {
-  return source_ != PlanSource::kLns || optimal() || limits.stop_requested() ||
-         work() - work_at_last_report_ >= tuning_.lns_report_work * best_;
+  return best_.source() != PlanSource::kLns || optimal() || limits.stop_requested() ||
+         best_.work_since_report(work()) >= tuning_.lns_report_work * best_.cost();
 }
 
 void PrimalSearch::Impl::advance(const Limits& limits) {
-  if (individually_planned_ < agents_) return plan_individually(limits);
+  if (!planner_.knows_individual_costs()) return plan_individually(limits);
   const std::int64_t before = work();
   if (planning_is_due()) {
     plan(limits);
-    planning_work_ += work() - before;
+    if (planner_.is_planning()) planner_.add_planning_work(work() - before);
     return;
   }
-  if (!improving_)
-    step_lacam(limits);
-  else if (guided_)
-    guide(limits);
-  else
-    improve(limits);
-  other_work_ += work() - before;
+  improve(limits);
+  if (planner_.is_planning()) planner_.add_other_work(work() - before);
 }
 
 void PrimalSearch::Impl::plan_individually(const Limits& limits) {
-  const std::int64_t before = work();
-  const bool met = low_level_.plan_individually(individually_planned_, limits);
-  individual_planning_work_ += work() - before;
-  if (!met) return;
-  own_costs_are_minimal_ = own_costs_are_minimal_ && low_level_.knows_best(individually_planned_);
-  own_costs_ += low_level_.individual_cost(individually_planned_++);
-  if (individually_planned_ < agents_) return;
-  begin_round(true);
-  if (adopted_) put_all(*std::exchange(adopted_, std::nullopt), PlanSource::kStart);
-}
-
-void PrimalSearch::Impl::begin_round(bool first) {
-  std::vector<std::pair<double, AgentIndex>> keys;
-  for (AgentIndex agent = 0; agent < agents_; ++agent) {
-    const double spread = first ? 0 : kOrderNoise * (random_.unit() - 0.5);
-    keys.emplace_back((1 + spread) * low_level_.individual_cost(agent), agent);
-  }
-  std::ranges::sort(keys);
-  std::vector<AgentIndex> order;
-  for (const auto& [key, agent] : keys) order.push_back(agent);
-  planning_.begin(std::move(order));
-  planning_now_ = true;
-  first_round_ = first;
-  patience_ = tuning_.pp_head_start * individual_planning_work_;
-  planning_work_ = 0;
-  other_work_ = 0;
-  round_began_ = work();
+  if (!planner_.plan_individually(limits)) return;
+  const std::optional<Plan> adopted = planner_.begin_first_round();
+  progress_.begin_round(work());
+  if (adopted) start_from(*adopted);
 }
 
 bool PrimalSearch::Impl::planning_is_due() const {
-  if (!planning_now_) return false;
-  if (!is_raced()) return true;
-  const bool ahead = planning_.failures() == 0 &&
-                     planning_work_ < tuning_.pp_head_start * individual_planning_work_;
-  const bool takes_long =
-      improving_ && planning_work_ > tuning_.pp_long_attempt * individual_planning_work_;
-  return ahead || planning_work_ <= other_work_ / (takes_long ? kOtherWorkPerLatePlanningWork : 1);
+  if (!planner_.is_planning()) return false;
+  if (!improver_.is_active()) return true;
+  const std::int64_t individual = planner_.individual_costs().work;
+  const std::int64_t spent = planner_.planning_work();
+  const bool ahead = planner_.failures() == 0 && spent < tuning_.pp_head_start * individual;
+  const bool takes_long = improver_.has_plan() && spent > tuning_.pp_long_attempt * individual;
+  return ahead || spent <= planner_.other_work() / (takes_long ? kOtherWorkPerLatePlanningWork : 1);
 }
 
 void PrimalSearch::Impl::plan(const Limits& limits) {
-  using Outcome = PrioritizedPlanning::Outcome;
-  const std::int64_t patience = is_raced() ? patience_ : kEndless;
-  const Outcome outcome = planning_.step(limits, patience);
-  if (outcome == Outcome::kDone) take_over_planned();
-  if (outcome == Outcome::kPutOff) patience_ *= 2;
+  if (planner_.plan(limits, improver_.is_active())) take_over_planned();
 }
 
 void PrimalSearch::Impl::take_over_planned() {
-  planning_now_ = false;
-  lacam_.reset();
-  if (first_round_ && improving_ && planned_.cost() >= paths_.cost()) return planned_.clear();
-  guided_.reset();  // plans of prioritised planning are mostly cheaper
-  paths_.clear();
-  for (AgentIndex agent = 0; agent < agents_; ++agent) paths_.put(agent, planned_.take(agent));
-  source_of_paths_ = PlanSource::kPrioritizedPlanning;
-  begin_improving();
-}
-
-void PrimalSearch::Impl::step_lacam(const Limits& limits) {
-  using Outcome = LacamWithRestarts::Outcome;
-  if (!lacam_)
-    lacam_ = std::make_unique<LacamWithRestarts>(problem_, own_orders(), seed_,
-                                                 tuning_.lacam_first_steps);
-  const std::int64_t before = lacam_->steps();
-  const Outcome outcome =
-      lacam_->run(limits, std::max<std::int64_t>(1, tuning_.primal_step_work / agents_));
-  joint_steps_ += lacam_->steps() - before;
-  if (outcome == Outcome::kFound) {
-    put_all(*lacam_->plan(), PlanSource::kLacam);
-  }
-  // If memory is short, it is left to the rest of the run.
-  const bool lost =
-      outcome == Outcome::kExhausted || (outcome == Outcome::kStopped && !limits.stop_requested());
-  if (lost) may_step_lacam_ = false;
-  if (lost || outcome == Outcome::kFound) lacam_.reset();
-}
-
-void PrimalSearch::Impl::begin_guiding(const Plan& plan) {
-  const double min_cost_to_guide = (1 + kMinLossForGuidance) * static_cast<double>(own_costs_);
-  if (!may_guide_ || !may_step_lacam_ || static_cast<double>(plan.cost) < min_cost_to_guide) return;
-  may_guide_ = false;
-  guided_ = std::make_unique<TrafficGuidedLacam>(problem_, own_orders(),
-                                                 static_cast<double>(own_costs_) / agents_,
-                                                 random_.below(kSeeds), tuning_);
-  guided_->learn(plan);
-}
-
-void PrimalSearch::Impl::guide(const Limits& limits) {
-  using Outcome = TrafficGuidedLacam::Outcome;
-  const Outcome outcome = guided_->run(limits, tuning_.primal_step_work);
-  guided_work_ = guided_->work();
-  guided_joint_steps_ = guided_->joint_steps();
-  if (outcome == Outcome::kWorking || limits.stop_requested()) return;
-  ++rounds_without_gain_;
-  if (outcome == Outcome::kFound) {
-    const Plan& plan = guided_->plan();
-    if (plan.cost < paths_.cost()) {
-      put_all(plan, PlanSource::kLacam);
-      rounds_without_gain_ = 0;
-    }
-    guided_->learn(plan);
-  }
-  // If memory is short, it is left to the rest of the run.
-  if (outcome == Outcome::kStopped || rounds_without_gain_ >= kGuidedRoundsWithoutGain)
-    guided_.reset();
-}
-
-// The sequences of the individual paths, with distinct last stops (separate_ends()).
-std::vector<Sequence> PrimalSearch::Impl::own_orders() const {
-  std::vector<Sequence> orders;
-  for (AgentIndex agent = 0; agent < agents_; ++agent)
-    orders.push_back(low_level_.individual_order(agent));
-  separate_ends(problem_.instance, orders);
-  return orders;
-}
-
-void PrimalSearch::Impl::begin_improving() {
-  improving_ = true;
-  neighborhoods_.begin(own_costs_);
-  round_best_ = paths_.cost();
-  round_improved_ = work();
-  round_improved_step_ = neighborhoods_.steps();
+  const bool first_round = planner_.state() == Planner::State::kFirstRound;
+  PlannedPaths& planned = planner_.end_round();
+  const bool is_worse = improver_.has_plan() && planned.cost() >= improver_.paths().cost();
+  if (first_round && is_worse) return planned.clear();
+  improver_.take_over(planned);  // plans of prioritised planning are mostly cheaper
+  note_gain();
 }
 
 void PrimalSearch::Impl::improve(const Limits& limits) {
-  neighborhoods_.step(limits);
-  if (paths_.cost() >= round_best_) return;
-  source_of_paths_ = PlanSource::kLns;
-  round_best_ = paths_.cost();
-  round_improved_ = work();
-  round_improved_step_ = neighborhoods_.steps();
+  if (improver_.step(limits)) note_gain();
 }
 
-bool PrimalSearch::Impl::stalled() const {
-  const std::int64_t least = std::max(kStallNeighborhoods, kStallNeighborhoodsPerAgent * agents_);
-  return neighborhoods_.steps() - round_improved_step_ >= least &&
-         work() - round_improved_ >= round_improved_ - round_began_;
+void PrimalSearch::Impl::begin_later_round() {
+  planner_.begin_later_round();
+  progress_.begin_round(work());
 }
 
 void PrimalSearch::Impl::adopt(const Plan& plan) {
-  if (plan.cost >= best_) return;
-  best_ = reported_cost_ = plan.cost;
-  if (individually_planned_ < agents_) {
-    adopted_ = plan;
-    return;
-  }
-  lacam_.reset();
-  if (!planning_now_ || !first_round_) {
-    planning_now_ = false;
-    round_began_ = work();
-  }
-  put_all(plan, PlanSource::kStart);
+  if (plan.cost >= best_.cost()) return;
+  best_.adopt(plan.cost);
+  if (!planner_.knows_individual_costs()) return planner_.keep_adopted(plan);
+  if (planner_.state() == Planner::State::kLaterRound) planner_.end_round().clear();
+  if (!planner_.is_planning()) progress_.begin_round(work());
+  start_from(plan);
+  check_states();
 }
 
-void PrimalSearch::Impl::put_all(const Plan& plan, PlanSource source) {
-  paths_.clear();
-  for (AgentIndex agent = 0; agent < agents_; ++agent) {
-    paths_.put(agent, walked_path(problem_.instance, agent, plan.agents[agent]));
-  }
-  source_of_paths_ = source;
-  begin_improving();
-  begin_guiding(plan);
+void PrimalSearch::Impl::start_from(const Plan& plan) {
+  improver_.start_from(plan, PlanSource::kStart);
+  note_gain();
+}
+
+// The combinations of states at the head of this file.
+void PrimalSearch::Impl::check_states() const {
+  using Of = Planner::State;
+  const Planner::State planner = planner_.state();
+  GROVE_CHECK(improver_.has_plan() || planner == Of::kIndividual || planner == Of::kFirstRound,
+              "without a plan individual or prioritised planning must be in progress");
+  GROVE_CHECK(!improver_.has_plan() || planner != Of::kIndividual,
+              "a plan must be improved only after individual planning");
+  GROVE_CHECK(planner != Of::kLaterRound || improver_.state() == Improver::State::kLns,
+              "LNS must improve a plan during a later round");
+  GROVE_CHECK(improver_.has_plan() || planner == Of::kIndividual || !best_.exists(),
+              "the search must continue from a plan if there is one");
+}
+
+bool PrimalSearch::Impl::expects_plan() const {
+  if (!improver_.has_lacam() || optimal()) return false;
+  if (!best_.exists()) return improver_.joint_search().first_plan_steps < kLacamExpectedSteps;
+  const bool plans = planner_.state() == Planner::State::kFirstRound;
+  const bool guides = improver_.state() == Improver::State::kGuided;
+  return (plans && planner_.planning_work() < root_work()) ||
+         (guides && improver_.joint_search().guided_work < root_work());
 }
 
 PrimalSearch::PrimalSearch(const Problem& problem, AgentStopsCache& stops, std::uint64_t seed,

@@ -32,6 +32,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/assert.h"
 #include "primal/planned_paths.h"
 
 namespace grove::detail {
@@ -46,7 +47,8 @@ constexpr int kGreedPercent = 30;
 }  // namespace
 
 void PrioritizedPlanning::begin(std::vector<AgentIndex> order) {
-  order_ = std::move(order);
+  GROVE_CHECK(order.size() == paths_.paths().size(), "an order must hold every agent");
+  order_.agents = std::move(order);
   failures_ = 0;
   greedily_ = false;
   begin_again();
@@ -54,27 +56,27 @@ void PrioritizedPlanning::begin(std::vector<AgentIndex> order) {
 
 void PrioritizedPlanning::begin_again() {
   paths_.clear();
-  next_ = 0;
-  labels_of_order_ = 0;
-  has_failed_.assign(order_.size(), false);
+  order_.next = 0;
+  order_.labels = 0;
+  order_.has_failed.assign(order_.agents.size(), false);
   ++attempts_;
 }
 
 std::int64_t PrioritizedPlanning::label_limit() const {
-  const std::int64_t draws = failures_ / static_cast<std::int64_t>(order_.size());
-  return (kPlanningLabels + kPlanningLabelsFactor * labels_of_found_)
+  const std::int64_t draws = failures_ / std::ssize(order_.agents);
+  return (kPlanningLabels + kPlanningLabelsFactor * labels_of_found_.max)
          << std::min<std::int64_t>(draws, 30);
 }
 
 std::int64_t PrioritizedPlanning::max_exact_labels() const {
-  return tuning_.pp_exact_labels + tuning_.pp_exact_labels_factor * labels_of_exact_ /
-                                       std::max(found_exactly_, std::int64_t{1});
+  return tuning_.pp_exact_labels + tuning_.pp_exact_labels_factor * labels_of_found_.exact /
+                                       std::max(labels_of_found_.exact_calls, std::int64_t{1});
 }
 
 PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
                                                        std::int64_t patience) {
-  if (next_ == order_.size()) return Outcome::kDone;
-  const AgentIndex agent = order_[next_];
+  if (is_done()) return Outcome::kDone;
+  const AgentIndex agent = order_.agents[order_.next];
   const std::int64_t before = low_level_.expanded();
   const std::int64_t most = greedily_ ? label_limit() : std::min(label_limit(), max_exact_labels());
   const PathQuery query{.label_limit = std::min(patience, most),
@@ -83,13 +85,14 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
                         .known_sequences_only = true};
   const PathOutcome outcome = low_level_.find(agent, query, limits, path_);
   const std::int64_t labels = low_level_.expanded() - before;
-  labels_of_order_ += labels;
+  order_.labels += labels;
   if (outcome == PathOutcome::kFound) {
     note_labels(labels);
     paths_.put(agent, std::move(path_));
     path_.clear();
     greedily_ = false;
-    return ++next_ == order_.size() ? Outcome::kDone : Outcome::kWorking;
+    ++order_.next;
+    return is_done() ? Outcome::kDone : Outcome::kWorking;
   }
   if (limits.stop_requested()) return Outcome::kStopped;
   if (patience < most && labels >= patience) return Outcome::kPutOff;
@@ -99,7 +102,7 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
   }
   ++failures_;
   greedily_ = false;
-  if (labels_of_order_ < tuning_.pp_resume_labels || has_failed_[agent])
+  if (order_.labels < tuning_.pp_resume_labels || order_.has_failed[agent])
     restart_with_failed_first();
   else
     remove_blocking_agents(agent);
@@ -109,35 +112,38 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
 // Removes the paths of the agents that block the individual path of `agent`, and moves these agents
 // behind `agent` in the order.
 void PrioritizedPlanning::remove_blocking_agents(AgentIndex agent) {
-  has_failed_[agent] = true;
-  std::vector<bool> gone(order_.size(), false);
+  std::vector<AgentIndex>& agents = order_.agents;
+  order_.has_failed[agent] = true;
+  std::vector<bool> gone(agents.size(), false);
   for_each_blocking_agent(world_, paths_.reservations(), agent, low_level_.individual_path(agent),
                           0, [&](AgentIndex other) {
                             gone[other] = true;
                             return true;
                           });
-  const auto planned = order_.begin() + static_cast<std::ptrdiff_t>(next_);
-  const auto first_gone = std::stable_partition(order_.begin(), planned,
+  const auto planned = agents.begin() + static_cast<std::ptrdiff_t>(order_.next);
+  const auto first_gone = std::stable_partition(agents.begin(), planned,
                                                 [&](AgentIndex other) { return !gone[other]; });
   for (auto other = first_gone; other != planned; ++other) paths_.take(*other);
   std::rotate(first_gone, planned, planned + 1);
-  next_ = static_cast<std::size_t>(first_gone - order_.begin());
+  order_.next = static_cast<std::size_t>(first_gone - agents.begin());
+  GROVE_ASSERT(agents[order_.next] == agent, "the agent that failed must be planned next");
 }
 
 void PrioritizedPlanning::restart_with_failed_first() {
-  if (failures_ % std::ssize(order_) == 0)
-    random_.shuffle(order_);
+  std::vector<AgentIndex>& agents = order_.agents;
+  const auto failed = agents.begin() + static_cast<std::ptrdiff_t>(order_.next);
+  if (failures_ % std::ssize(agents) == 0)
+    random_.shuffle(agents);
   else
-    std::rotate(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(next_),
-                order_.begin() + static_cast<std::ptrdiff_t>(next_) + 1);
+    std::rotate(agents.begin(), failed, failed + 1);
   begin_again();
 }
 
 void PrioritizedPlanning::note_labels(std::int64_t labels) {
-  labels_of_found_ = std::max(labels_of_found_, labels);
+  labels_of_found_.max = std::max(labels_of_found_.max, labels);
   if (greedily_) return;
-  labels_of_exact_ += labels;
-  ++found_exactly_;
+  labels_of_found_.exact += labels;
+  ++labels_of_found_.exact_calls;
 }
 
 }  // namespace grove::detail

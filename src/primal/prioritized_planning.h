@@ -44,6 +44,21 @@ class PrioritizedPlanning {
   std::int64_t failures() const { return failures_; }
 
  private:
+  // The agents in the order in which they are planned. Those before position `next` have paths.
+  struct Order {
+    std::vector<AgentIndex> agents;
+    std::size_t next = 0;
+    std::int64_t labels = 0;       // labels since this order was started
+    std::vector<bool> has_failed;  // by AgentIndex: failed in this order
+  };
+  // Labels of the low-level calls that found a path.
+  struct LabelsOfFound {
+    std::int64_t exact = 0;        // of all exact calls
+    std::int64_t exact_calls = 0;  // number of these calls
+    std::int64_t max = 0;          // of one call, exact or greedy
+  };
+
+  bool is_done() const { return order_.next == order_.agents.size(); }
   void begin_again();
   std::int64_t label_limit() const;
   std::int64_t max_exact_labels() const;
@@ -56,16 +71,11 @@ class PrioritizedPlanning {
   PlannedPaths& paths_;
   Random& random_;
   const Tuning& tuning_;
-  std::vector<AgentIndex> order_;
-  std::size_t next_ = 0;  // position in order_ of the next agent to plan
+  Order order_;
   std::int64_t attempts_ = 0;
-  bool greedily_ = false;             // the next call searches greedily
-  std::int64_t labels_of_order_ = 0;  // labels since this order was started
-  std::vector<bool> has_failed_;      // by AgentIndex: failed in this order
-  std::int64_t failures_ = 0;         // since begin()
-  std::int64_t labels_of_exact_ = 0;  // labels of all exact calls that found a path
-  std::int64_t found_exactly_ = 0;    // number of these calls
-  std::int64_t labels_of_found_ = 0;  // maximum labels of a call that found a path
+  std::int64_t failures_ = 0;  // since begin()
+  bool greedily_ = false;      // the next call searches greedily
+  LabelsOfFound labels_of_found_;
   Path path_;
 };
 

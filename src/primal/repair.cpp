@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <deque>
 
+#include "model/assert.h"
 #include "model/random.h"
 #include "primal/planned_paths.h"
 #include "primal/primal_low_level.h"
@@ -51,6 +52,8 @@ class Repair {
       if (limits_.stop_requested() || left-- == 0) return std::nullopt;
       remove_blocking_agents(agent, ++failures_);
     }
+    GROVE_CHECK(std::ranges::none_of(paths_.paths(), &Path::empty),
+                "every agent that is not in the queue must have a path");
     for (AgentIndex agent = 0; agent < agents_; ++agent)
       if (!low_level_.plan_individually(agent, limits_)) return std::nullopt;
     return low_level_.plan(paths_.paths());
@@ -82,6 +85,7 @@ class Repair {
                               low_level_.individual_path(agent),
                               static_cast<Time>(1 + random_.below(kLatest)), note);
     if (gone.empty()) gone = some_planned();
+    GROVE_ASSERT(std::ranges::find(gone, agent) == gone.end(), "an agent must not block itself");
     random_.shuffle(gone);
     for (const AgentIndex other : gone) {
       paths_.take(other);

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 
 Traffic::Traffic(const World& world, double usual, const Tuning& tuning)
@@ -26,7 +28,9 @@ Traffic::Traffic(const World& world, double usual, const Tuning& tuning)
 
 Traffic::Move Traffic::move(Place from, Place to) const {
   const auto neighbors = world_.neighbors(from);
-  return first_[from] + static_cast<Move>(std::ranges::find(neighbors, to) - neighbors.begin());
+  const auto neighbor = std::ranges::find(neighbors, to);
+  GROVE_ASSERT(neighbor != neighbors.end(), "a move must lead to a neighbour");
+  return first_[from] + static_cast<Move>(neighbor - neighbors.begin());
 }
 
 void Traffic::fade(double left) {
@@ -87,6 +91,7 @@ DistanceField Traffic::field(DistanceView distance) {
     for (; !bucket.empty(); --left) {
       const State state = bucket.back();
       bucket.pop_back();
+      GROVE_ASSERT(congestion_cost[state] <= cost, "the cost of a state must not rise");
       if (congestion_cost[state] != cost) continue;
       visit_before(state, [&](State before, Time price) { reach(before, cost + price); });
     }

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -46,6 +48,7 @@ void VisitStages::go_by_steps() {
 }
 
 VisitStages::Stage VisitStages::make(StopSet left) {
+  GROVE_ASSERT(index_.find(left) == StopSetIndex::kAbsent, "a set of stops must have one stage");
   const auto stage = static_cast<Stage>(entries_.size());
   entries_.push_back(entry(left));
   index_.insert(left, static_cast<std::uint32_t>(stage));
