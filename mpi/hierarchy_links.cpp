@@ -51,11 +51,16 @@ ParentLink::ParentLink(Transport& transport, const Hierarchy& hierarchy, Endpoin
                        message::Status first)
     : transport_(transport),
       to_(hierarchy.parent(post)),
+      top_(hierarchy.top()),
       pause_(kPause + kPausePerSibling * hierarchy.children(to_)),
       last_sent_(std::move(first)) {}
 
 void ParentLink::send(const message::Message& message) {
   transport_.send(to_.rank, message::bytes_of(message, to_.level));
+}
+
+void ParentLink::send_to_top(const message::Message& message) {
+  transport_.send(top_.rank, message::bytes_of(message, top_.level));
 }
 
 // A status is urgent if any field changed on which other ranks or the global bounds depend. A

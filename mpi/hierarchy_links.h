@@ -49,8 +49,9 @@ class ParentLink {
   ParentLink(Transport& transport, const Hierarchy& hierarchy, Endpoint post,
              message::Status first);
 
-  // Sends `message` at once.
+  // Sends `message` at once, to the parent or directly to the top coordinator.
   void send(const message::Message& message);
+  void send_to_top(const message::Message& message);
   // Sends `status` if it differs from the last status sent. An urgent status is sent at once, any
   // other at a rate that the parent can handle for all its children. `now`: seconds since the start
   // of the run. Returns true if `status` was sent.
@@ -68,6 +69,7 @@ class ParentLink {
 
   Transport& transport_;
   const Endpoint to_;
+  const Endpoint top_;
   const double pause_;         // seconds
   message::Status last_sent_;  // last status sent
   double last_sent_at_ = -1;

@@ -47,8 +47,8 @@ message::Status first_status(int rank) {
 Rank::Rank(const Problem& problem, const SolveOptions& options, const Limits& limits,
            Transport& transport, const AgentStopsCache& stops)
     : transport_(transport),
-      hierarchy_(transport.ranks(), options.tuning.coordinator_children),
-      parent_(transport, hierarchy_, {transport.rank(), 0}, first_status(transport.rank())),
+      parent_(transport, Hierarchy(transport.ranks(), options.tuning.coordinator_children),
+              {transport.rank(), 0}, first_status(transport.rank())),
       trees_{stops, {problem, trees_.stops, nodes_.pool}, {}},
       shared_bounds_(limits, nodes_.frontier),
       components_(problem, options, limits, stops, nodes_, shared_bounds_, at_coordinator_.trees,
@@ -202,7 +202,7 @@ void Rank::send_part() {
     gathered_.pop_back();
   }
   part.last = gathered_.empty();
-  transport_.send(hierarchy_.top().rank, bytes_of(part, hierarchy_.top().level));
+  parent_.send_to_top(part);
 }
 
 void Rank::restart(Cost proven) {

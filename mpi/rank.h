@@ -16,7 +16,6 @@
 #include "engine/solve.h"
 #include "model/counters.h"
 #include "mpi/custody.h"
-#include "mpi/hierarchy.h"
 #include "mpi/hierarchy_links.h"
 #include "mpi/learned_bound_exchange.h"
 #include "mpi/messages.h"
@@ -115,7 +114,6 @@ class Rank {
   void send(int rank, const message::Message& message);
 
   Transport& transport_;
-  const Hierarchy hierarchy_;
   ParentLink parent_;
   LocalNodes nodes_;
   ReceivedTrees trees_;
