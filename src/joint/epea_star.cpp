@@ -43,6 +43,7 @@
 #include "joint/joint_moves.h"
 #include "joint/joint_states.h"
 #include "joint/layer_queue.h"
+#include "model/assert.h"
 #include "model/effort.h"
 #include "model/plan.h"
 
@@ -87,7 +88,7 @@ class EpeaStar::Search {
       if (++states_ % kStatesPerPoll == 0 && (limits.stop_requested() || bytes() > max_bytes_))
         return Outcome::kTooLarge;
       if (is_final(state))
-        paths_ = paths_to(state);
+        finish(state);
       else if (!rises(state, cutoff))
         expand(state, cutoff);
     }
@@ -127,6 +128,10 @@ class EpeaStar::Search {
   void reach(const Node* nodes, std::uint64_t hash, Index parent, std::int32_t cost,
              std::int32_t individual_costs) {
     ++generated_;
+    GROVE_ASSERT(parent == kNone || (cost >= known_[parent].cost &&
+                                     cost + individual_costs >=
+                                         known_[parent].cost + known_[parent].individual_costs),
+                 "a move lowers neither the cost nor the sum of individual costs");
     Index& slot = known_.slot(nodes, hash);
     if (slot != kNone && known_[slot].cost <= cost) return;
     const Cost layer = std::max(queue_.layer(), cost + individual_costs + groups_.excess(nodes));
@@ -166,6 +171,19 @@ class EpeaStar::Search {
     record.expanded_budget = budget;
     record.layer = static_cast<std::int32_t>(layer);
     queue_.push(state, layer);
+  }
+
+  // Ends the search with the paths to a final state.
+  void finish(Index last) {
+    const std::vector<Node> start(size(), AgentGraph::start());
+    const Cost cost = known_[last].cost;
+    GROVE_CHECK(cost == queue_.layer(), "the plan found costs as much as the lower bound");
+    GROVE_CHECK(individual_costs_ + groups_.excess(start.data()) <= cost,
+                "the estimate at the start does not exceed the cost of a plan");
+    paths_ = paths_to(last);
+    Cost sum = 0;
+    for (const Path& path : *paths_) sum += std::ssize(path) - 1;
+    GROVE_CHECK(sum == cost, "the cost of a final state is the sum of its paths' costs");
   }
 
   // First prefetches the hash slots of all successors, then their records.

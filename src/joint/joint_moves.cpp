@@ -43,6 +43,8 @@ Time JointMoves::generate(const Node* nodes, std::int32_t cost, Time expanded_bu
 void JointMoves::choose(std::size_t agent, Time delta_f, std::int32_t cost,
                         std::int32_t individual_costs) {
   if (agent == agents_.size()) {
+    GROVE_ASSERT(delta_f > expanded_budget_ && delta_f <= budget_,
+                 "a successor is generated in one expansion of its parent");
     successor_nodes_.insert(successor_nodes_.end(), to_.begin(), to_.end());
     successors_.push_back(
         {JointStates::hash_of(to_.data(), agents_.size()), cost, individual_costs});

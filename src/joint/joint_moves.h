@@ -26,7 +26,7 @@ class JointMoves {
   JointMoves(const Instance& instance, std::span<const AgentGraph> agents);
 
   // Generates the successors of the joint state `nodes`, which is reached at `cost`, whose total
-  // delta_f is above `expanded_budget` and at most `budget`; a few below are generated again.
+  // delta_f is above `expanded_budget` and at most `budget`.
   // Returns the next budget that occurs; kNever if no successor is left.
   Time generate(const Node* nodes, std::int32_t cost, Time expanded_budget, Time budget);
 

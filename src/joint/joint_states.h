@@ -46,6 +46,7 @@ class JointStates {
   // The slot of the state with these nodes: its number, or kNone if the state is not in the table.
   // Valid until the next call.
   Index& slot(const Node* nodes, std::uint64_t hash) {
+    GROVE_ASSERT(hash == hash_of(nodes, agents_), "the hash is that of the nodes");
     if (2 * (records_.size() + 1) > slots_.size()) grow();
     return slots_[slot_of(nodes, hash)];
   }
