@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -40,6 +42,19 @@ CsrArray joined(const CsrArray& a, const CsrArray& b) {
     both.end_row();
   }
   return both;
+}
+
+bool ranks_are_consecutive(const World& world) {
+  for (Place place = 0; place < world.place_count(); ++place) {
+    int rank = 0;
+    bool consecutive = true;
+    world.for_each_state(place, [&](State state) {
+      consecutive =
+          consecutive && world.place(state) == place && world.rank_on_place(state) == rank++;
+    });
+    if (!consecutive || rank != world.states_on(place)) return false;
+  }
+  return true;
 }
 
 int longest_row(const CsrArray& rows) {
@@ -88,7 +103,9 @@ World::World(CsrArray moves, Place row_width)
       row_width_(row_width),
       max_moves_(longest_row(moves)),
       moves_(std::move(moves)),
-      working_(moves_.count()) {}
+      working_(moves_.count()) {
+  GROVE_ASSERT(same_sets(moves_, reversed(moves_)), "each move of a grid has its reverse");
+}
 
 World::World(const World& ground, std::vector<Kind> kinds, std::vector<Work> work, CsrArray moves)
     : places_(ground.place_count()),
@@ -115,6 +132,10 @@ World::World(const World& ground, std::vector<Kind> kinds, std::vector<Work> wor
     neighbors_.end_row();
   }
   max_states_on_a_place_ = bases_on_a_place_ + working_.max_on_a_place();
+  GROVE_CHECK(static_cast<std::int64_t>(places_) * bases_on_a_place_ == first,
+              "the states at work are numbered directly after the base states");
+  GROVE_CHECK(std::ssize(place_of_) == state_count() - places_, "each state has one place");
+  GROVE_ASSERT(ranks_are_consecutive(*this), "the states on a place have the ranks 0, 1, ...");
 }
 
 int World::kind_of_base(State state) const {

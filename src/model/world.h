@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 
 // The number of a place, which at most one agent occupies at a time, for example a cell of a grid.
@@ -75,7 +77,10 @@ class WorkingStates {
 
   bool has(State state) const { return state >= first_; }
   // Precondition of work() and rank_on_place(): has(state).
-  const Work& work(State state) const { return work_[state - first_]; }
+  const Work& work(State state) const {
+    GROVE_ASSERT(has(state), "only a state at work belongs to a task execution");
+    return work_[state - first_];
+  }
   std::int32_t rank_on_place(State state) const { return rank_[state - first_]; }
   // The states at work on `place`, ascending. Precondition: not every state is equal to its place.
   std::span<const State> on(Place place) const { return on_place_[place]; }
