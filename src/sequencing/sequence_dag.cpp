@@ -85,6 +85,7 @@ class DroppedCosts {
   explicit DroppedCosts(Time limit) : limit_(limit) {}
 
   void add(Time cost) {
+    GROVE_ASSERT(cost > limit_, "only states above the cost limit are dropped");
     least_ = std::min(least_, cost);
     const auto excess = static_cast<std::size_t>(cost - limit_ - 1);
     if (excess >= kCountedExcess) return;
@@ -227,6 +228,8 @@ class SequenceDagBuilder {
     }
     if (!compute_cost_to_go()) return SequenceDag::End::kStopped;
     dag_.outside_bound_ = dropped_.least();
+    GROVE_CHECK(dag_.outside_bound_ > cost_limit_,
+                "the graph holds all sequences within the cost limit");
     // The successors of the newly admitted states add about as many again.
     dag_.next_cost_limit_ = dropped_.limit_of(dag_.cost_to_go_.size() / 2);
     dag = std::move(dag_);
@@ -314,12 +317,16 @@ class SequenceDagBuilder {
       const Time rest =
           left == 0 ? scope_.matrix.to_end(port) : scope_.relaxation.bound(group.tail, left, port);
       const Time whole = round_up(add_costs(costs[i], rest));
+      GROVE_ASSERT(left != 0 || whole == add_costs(costs[i], rest),
+                   "the costs of complete sequences have a common parity");
       if (whole <= cost_limit_) continue;
       dropped_.add(whole);
       costs[i] = kNever;
     }
     if (walks_.is_used() && left != 0) drop_by_pairs(left, stop, costs);
     if (least(costs) >= kNever) return;
+    GROVE_ASSERT((left & bit(stop)) == 0 && (group.node.at & bit(stop)) == 0,
+                 "a state is reached once, with its own stop visited");
     group.node.at |= bit(stop);
     layer_.states.push_back({number, costs, static_cast<Stop>(stop)});
   }
@@ -381,6 +388,7 @@ class SequenceDagBuilder {
       dag_.nodes_.push_back(group.node);
       tails_.push_back(group.tail);
     }
+    GROVE_CHECK(first == dag_.state_count(), "each state of a layer is in one node");
     for (const State& state : layer_.states) {
       const SequenceDag::Node& node = layer_.groups[state.group].node;
       std::ranges::copy(state.costs,
