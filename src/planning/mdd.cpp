@@ -38,6 +38,7 @@
 
 #include <algorithm>
 
+#include "model/assert.h"
 #include "model/hash.h"
 #include "planning/bucket_queue.h"
 #include "planning/label_planes.h"
@@ -178,6 +179,23 @@ std::uint64_t Mdd::hash() const {
   return hash;
 }
 
+bool Mdd::is_connected() const {
+  std::vector<bool> reached(places_.size());
+  for (Time time = 0; time < cost(); ++time) {
+    const Range next = layer(time + 1);
+    for (NodeId node = layer(time).first; node < layer(time).end; ++node) {
+      if (successors(node).empty()) return false;
+      for (const NodeId to : successors(node)) {
+        if (to < next.first || to >= next.end) return false;
+        reached[static_cast<std::size_t>(to)] = true;
+      }
+    }
+  }
+  for (NodeId node = 0; node < layer(0).first; ++node)
+    if (!reached[static_cast<std::size_t>(node)]) return false;
+  return layer(0).end == node_count();
+}
+
 void Mdd::clear() {
   first_of_layer_.clear();
   places_.clear();
@@ -227,6 +245,9 @@ MddBuilder::Outcome MddBuilder::Workspace::make_layers(std::size_t max_nodes, Md
   if (ends_.empty()) return Outcome::kNone;
   if (count_nodes() > max_nodes) return Outcome::kTooLarge;
   write_layers();
+  GROVE_ASSERT(static_cast<std::size_t>(written_.node_count()) == count_nodes(),
+               "each label has a node at each of its times");
+  GROVE_ASSERT(written_.is_connected(), "every node of an MDD is on a path");
   paths = written_;
   return Outcome::kBuilt;
 }
@@ -258,6 +279,7 @@ void MddBuilder::Workspace::start() {
 
 void MddBuilder::Workspace::expand(LabelId from) {
   const Label label = graph_[from];  // the graph will grow
+  GROVE_ASSERT(label.first_move == label.end_move, "a label is expanded once");
   graph_.begin_moves(from);
   intervals_.for_each_move(label.slot, label.earliest, [&](int slot, State state, Time first) {
     goals_->on_arrival(label.stage, state, [&](StageId then) { reach(from, slot, then, first); });
@@ -300,6 +322,8 @@ void MddBuilder::Workspace::go_backward() {
   BucketQueue::Entry entry;
   while (queue_.pop(entry)) {
     if (graph_[entry.slot].latest != entry.time) continue;
+    GROVE_ASSERT(entry.time >= graph_[entry.slot].earliest && entry.time < cost_,
+                 "a useful label can be reached by its latest time");
     useful_.push_back(entry.slot);
     graph_.for_each_move_into(entry.slot, [&](const Move& move) { leave_by(move, entry.time); });
   }
@@ -313,6 +337,8 @@ void MddBuilder::Workspace::Graph::index_targets() {
   into_.resize(moves_.size());
   for (std::size_t move = 0; move < moves_.size(); ++move)
     into_[--first_in_[moves_[move].to]] = static_cast<std::int32_t>(move);
+  GROVE_ASSERT(std::ranges::is_sorted(first_in_) && first_in_.front() == 0,
+               "each move is in the index once");
 }
 
 void MddBuilder::Workspace::find_ends() {

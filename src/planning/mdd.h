@@ -53,6 +53,10 @@ class Mdd {
   friend class MddBuilder;
 
   void clear();  // keeps the capacity
+  // True if layer 0 has one node, and every edge leads to the next layer, and every node has an
+  // edge from the layer before, except in layer 0, and an edge to the layer after, except in the
+  // last.
+  bool is_connected() const;
 
   // Nodes are stored by layer, from the last layer to the first.
   std::vector<NodeId> first_of_layer_;  // and one more entry for the end

@@ -58,6 +58,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/assert.h"
 #include "sequencing/cost_matrix.h"
 #include "sequencing/direct_legs.h"
 
@@ -125,6 +126,7 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
     durations_.push_back(task.duration);
     if (task.duration > 0) work_stops_ |= bit(static_cast<int>(stop));
   }
+  GROVE_CHECK(ports_.count() == count() * ports(), "each stop has its ports");
   stop_at_ = stops_of_states(
       instance, distances.array(ArrayKind::kStopsOfStates, static_cast<std::size_t>(agent)));
   if (!instance.rests_on_last_stop(agent)) to_rest_ = distances.to_rest(agent);
@@ -271,6 +273,8 @@ SequenceStages::StageId SequenceStages::make_stage(StopSet left, StopSet rests) 
     return static_cast<StageId>(known);
 
   Stage stage{.left = left, .next = next_of(left), .rests = rests};
+  GROVE_ASSERT((left & ~free_) == 0 || (free_ & ~left) == 0,
+               "stops are counted in the order of the prefix");
   stage.may_skip = rest_is_not_first_ && left == free_ && std::popcount(first_free_) > 1;
   add_onward(stage);
   if (left != 0 && stage.count == 0) return kOutside;
@@ -305,6 +309,7 @@ void SequenceStages::add_onward(Stage& stage) {
   stage.nearest = static_cast<std::int32_t>(sorted.size());
   std::remove_copy_if(ways, onward_.end(), std::back_inserter(sorted), needed);
   std::ranges::copy(sorted, ways);
+  GROVE_ASSERT(stage.nearest > 0 || stage.count == 0, "some onward port determines the distance");
 }
 
 Sequence realized_sequence(const SequenceStages& goals, const Path& path) {
