@@ -53,9 +53,8 @@ class Mdd {
   friend class MddBuilder;
 
   void clear();  // keeps the capacity
-  // True if layer 0 has one node, and every edge leads to the next layer, and every node has an
-  // edge from the layer before, except in layer 0, and an edge to the layer after, except in the
-  // last.
+  // True if every edge leads to the next layer, every node except those of the last layer has a
+  // successor, and every node except those of layer 0 is one.
   bool is_connected() const;
 
   // Nodes are stored by layer, from the last layer to the first.
