@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "model/assert.h"
 #include "planning/constraint.h"
 #include "planning/safe_intervals.h"
 
@@ -37,6 +38,7 @@ template <class Reach>
 void for_each_step(const World& world, const SafeIntervals& intervals, Cell from, Time time,
                    Reach reach) {
   const int slot = slot_at(intervals, from, time);
+  GROVE_ASSERT(slot >= 0, "an agent is on a cell only while it is safe there");
   if (intervals.end_of(slot) > time) reach(from);
   for (Cell next : world.neighbors(from)) {
     if (intervals.unconstrained(next)) {

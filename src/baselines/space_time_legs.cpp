@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "baselines/space_time.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 namespace {
@@ -37,6 +38,9 @@ void SpaceTimeLegs::append(Cell from, Time time, Target target, Path& path) {
   const std::size_t before = path.size();
   path.resize(before + static_cast<std::size_t>(end - time));
   for (; id != kNone; id = labels_[id].parent) {
+    GROVE_ASSERT(
+        labels_[id].time == time || labels_[labels_[id].parent].time + 1 == labels_[id].time,
+        "a leg has one label per step");
     if (labels_[id].time > time)
       path[before + static_cast<std::size_t>(labels_[id].time - time) - 1] = cell_of(id);
   }
@@ -84,6 +88,7 @@ void SpaceTimeLegs::reach(Cell cell, Time time, std::int32_t parent, Target targ
   if (to_goal >= kNever) return;
   label = {time, parent, stamp_};
   const Time f = std::max(time + to_goal, intervals_->begin_of(target.slot));
+  GROVE_ASSERT(f >= queue_.layer(), "the estimate of a leg never falls");
   queue_.push(std::max(f, queue_.layer()), {.slot = id, .time = time});
 }
 

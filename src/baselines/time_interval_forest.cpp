@@ -20,6 +20,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -55,7 +57,11 @@ void TimeIntervalForest::append(Cell from, Time time, Target target, Path& path)
   const Piece* piece = find(*tree, from, time);
   if (!piece) throw std::logic_error("internal error: a leg that was found is missing");
   while (piece->next != kNone) {
+    const Time steps = piece->steps;
     piece = &tree->pieces[piece->next];
+    ++time;
+    GROVE_ASSERT(piece->begin <= time && time <= piece->end && piece->steps == steps - 1,
+                 "a step of a leg leads to the next piece while it is valid");
     path.push_back(piece->cell);
   }
 }
@@ -125,6 +131,8 @@ void TimeIntervalForest::cover(Tree& tree, Cell cell, Time begin, Time end, std:
       previous = gap;
       continue;
     }
+    GROVE_ASSERT(tree.pieces.empty() || tree.pieces.back().steps <= steps,
+                 "pieces are made in order of their steps");
     tree.pieces.push_back({cell, std::max(begin, g.begin), std::min(end, g.end), steps, next});
     if (g.begin < begin) {  // a part before `begin` remains
       gaps_[gap].end = begin - 1;
@@ -161,11 +169,18 @@ void TimeIntervalForest::sort_pieces(Tree& tree) const {
   tree.by_cell.resize(tree.pieces.size());
   std::vector<std::int32_t> free = tree.first_of;
   for (std::int32_t i = 0; i < count; ++i) tree.by_cell[free[tree.pieces[i].cell]++] = i;
-  for (Cell cell = 0; cell < world_.place_count(); ++cell)
+  for (Cell cell = 0; cell < world_.place_count(); ++cell) {
     std::sort(tree.by_cell.begin() + tree.first_of[cell],
               tree.by_cell.begin() + tree.first_of[cell + 1], [&](std::int32_t a, std::int32_t b) {
                 return tree.pieces[a].begin < tree.pieces[b].begin;
               });
+    GROVE_ASSERT(std::adjacent_find(tree.by_cell.begin() + tree.first_of[cell],
+                                    tree.by_cell.begin() + tree.first_of[cell + 1],
+                                    [&](std::int32_t a, std::int32_t b) {
+                                      return tree.pieces[a].end >= tree.pieces[b].begin;
+                                    }) == tree.by_cell.begin() + tree.first_of[cell + 1],
+                 "the pieces of a cell do not overlap");
+  }
 }
 
 // Returns the piece of `cell` that contains `time`, or nullptr if the target cannot be reached from

@@ -21,6 +21,7 @@
 #include <algorithm>
 
 #include "baselines/space_time.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 namespace {
@@ -88,6 +89,7 @@ void VisitedSetSearch::reach(Cell cell, Time time, StopSet left, std::int32_t pa
   }
   const Time onward = min_cost(cell, left);
   if (onward >= kNever) return;
+  GROVE_ASSERT(time + onward >= queue_.layer(), "the estimate of a path never falls");
   queue_.push(std::max(queue_.layer(), time + onward),
               {.slot = static_cast<std::int32_t>(id), .time = time});
 }
@@ -113,8 +115,13 @@ bool VisitedSetSearch::is_finish(const Label& label) const {
 
 void VisitedSetSearch::write_path(std::int32_t finish, Path& path) const {
   path.resize(static_cast<std::size_t>(labels_[finish].time) + 1);
-  for (std::int32_t id = finish; id != kNoLabel; id = labels_[id].parent)
+  for (std::int32_t id = finish; id != kNoLabel; id = labels_[id].parent) {
+    GROVE_ASSERT(labels_[id].parent == kNoLabel
+                     ? labels_[id].time == 0
+                     : labels_[labels_[id].parent].time + 1 == labels_[id].time,
+                 "a path has one label per step, from time 0 on");
     path[labels_[id].time] = labels_[id].cell;
+  }
 }
 
 }  // namespace grove::detail

@@ -29,6 +29,8 @@
 #include <new>
 #include <utility>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 
 VisitingOrderSearch::VisitingOrderSearch(const World& world, std::unique_ptr<Legs> legs)
@@ -135,6 +137,7 @@ void VisitingOrderSearch::go_to(int goal, StopSet left, std::int32_t from, bool 
     if (labels_[id].time <= time) continue;
     const Time arrival = legs_->arrival(cell, time, target, limits);
     if (arrival >= labels_[id].time) continue;
+    GROVE_ASSERT(arrival + onward >= queue_.layer(), "the estimate of a path never falls");
     labels_[id] = {arrival, from};
     queue_.push(std::max(queue_.layer(), arrival + onward), {.slot = id, .time = arrival});
   }
@@ -147,6 +150,8 @@ void VisitingOrderSearch::write_path(std::int32_t finish, Path& path) {
   path.assign(1, stops_->start());
   for (std::size_t i = 1; i < chain.size(); ++i)
     legs_->append(path.back(), labels_[chain[i - 1]].time, targets_[column_of(chain[i])], path);
+  GROVE_CHECK(std::ssize(path) == labels_[finish].time + 1,
+              "the legs of a path take the time of its label");
 }
 
 }  // namespace grove::detail

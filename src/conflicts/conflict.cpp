@@ -5,6 +5,7 @@
 #include "conflicts/conflict.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "model/assert.h"
 
@@ -38,6 +39,8 @@ ConflictFinder::ConflictFinder(const World& world, bool may_follow)
 void ConflictFinder::all(std::span<const Path> paths, std::span<const AgentIndex> agents,
                          std::vector<Conflict>& conflicts) {
   conflicts.clear();
+  GROVE_ASSERT(std::ranges::adjacent_find(agents, std::greater_equal<>()) == agents.end(),
+               "agents are in ascending order, each once");
   begin(paths, agents);
   Time time = 0;
   for (; !moving_.empty(); ++time) {
@@ -49,6 +52,8 @@ void ConflictFinder::all(std::span<const Path> paths, std::span<const AgentIndex
     for (const AgentIndex agent : moving_) find_following_conflicts(agent, time, conflicts);
   }
   base_ += time + 1;
+  GROVE_ASSERT(std::ranges::is_sorted(conflicts, {}, &Conflict::time),
+               "conflicts are in order of time");
 }
 
 void ConflictFinder::begin(std::span<const Path> paths, std::span<const AgentIndex> agents) {
@@ -83,6 +88,11 @@ void ConflictFinder::find_vertex_conflicts(Time time, std::vector<Conflict>& con
   std::sort(conflicts.begin() + first, conflicts.end(), [](const Conflict& c, const Conflict& d) {
     return c.second != d.second ? c.second < d.second : c.first > d.first;
   });
+  GROVE_ASSERT(std::adjacent_find(conflicts.begin() + first, conflicts.end(),
+                                  [](const Conflict& c, const Conflict& d) {
+                                    return c.first == d.first && c.second == d.second;
+                                  }) == conflicts.end(),
+               "two agents have one vertex conflict at a time");
 }
 
 // Enters the agent at its place and reports its new vertex conflicts with agents entered before it
@@ -96,6 +106,8 @@ void ConflictFinder::add_vertex_conflicts(AgentIndex agent, Time time,
   visit = {base_ + time, agent};
   const bool was_there = time > 0 && before_[agent] == place;
   const auto report = [&](AgentIndex other) {
+    GROVE_ASSERT(other != agent && now_[other] == place,
+                 "two agents with a vertex conflict are on one place");
     conflicts.push_back({std::min(agent, other), std::max(agent, other), place, kNoPlace, time});
   };
   for (AgentIndex other = also_there[agent]; other >= 0; other = also_there[other])
@@ -114,7 +126,10 @@ void ConflictFinder::find_edge_conflicts(AgentIndex agent, Time time,
   if (from == to || visit.stamp != base_ + time - 1) return;
   const auto& also_there = also_there_[(time - 1) % 2];
   for (AgentIndex other = visit.agent; other >= 0; other = also_there[other])
-    if (agent < other && now_[other] == from) conflicts.push_back({agent, other, to, from, time});
+    if (agent < other && now_[other] == from) {
+      GROVE_ASSERT(before_[other] == to, "two agents with an edge conflict swap places");
+      conflicts.push_back({agent, other, to, from, time});
+    }
 }
 
 // Reports the following conflicts in which `agent` enters a place. Skips an agent that stays on the
@@ -127,9 +142,12 @@ void ConflictFinder::find_following_conflicts(AgentIndex agent, Time time,
   if (from == to || visit.stamp != base_ + time - 1) return;
   const auto& also_there = also_there_[(time - 1) % 2];
   for (AgentIndex other = visit.agent; other >= 0; other = also_there[other])
-    if (now_[other] != to && now_[other] != from)
+    if (now_[other] != to && now_[other] != from) {
+      GROVE_ASSERT(other != agent && before_[other] == to,
+                   "a following agent enters the place that the other agent leaves");
       conflicts.push_back(
           {std::min(agent, other), std::max(agent, other), to, kNoPlace, time, agent});
+    }
 }
 
 }  // namespace grove::detail

@@ -32,6 +32,8 @@
 #include <array>
 
 #include "conflicts/symmetry_reasoning.h"
+#include "model/assert.h"
+#include "planning/constraint.h"
 
 namespace grove::detail {
 namespace {
@@ -93,7 +95,11 @@ std::optional<Split> split_on(const Conflict& conflict, std::span<const Path> pa
   const auto barred = [](const Traversal& t, Time last) {
     return Constraint{t.end, t.last, t.arrival, last, ConstraintKind::kNoTraversal};
   };
-  return Split{{{conflict.first, barred(*a, a_last)}, {conflict.second, barred(*b, b_last)}}};
+  const Split split{{{conflict.first, barred(*a, a_last)}, {conflict.second, barred(*b, b_last)}}};
+  GROVE_ASSERT(!satisfies(world, paths[conflict.first], split[0].constraint, corridors) &&
+                   !satisfies(world, paths[conflict.second], split[1].constraint, corridors),
+               "both paths violate the corridor split of their conflict");
+  return split;
 }
 
 }  // namespace

@@ -16,11 +16,13 @@
 // children differ from the parent.* The path of a violates the first constraint, and the path of b
 // violates the constraint on b that follows from the second.
 #include "conflicts/symmetry_reasoning.h"
+#include "model/assert.h"
+#include "planning/constraint.h"
 
 namespace grove::detail {
 
 std::optional<Split> target_split(const Conflict& conflict, std::span<const Path> paths,
-                                  const World& world, const Corridors& /*chains*/) {
+                                  const World& world, const Corridors& corridors) {
   if (conflict.is_swap() || conflict.is_following()) return std::nullopt;
   const auto rests = [&](AgentIndex agent) {
     return last_arrival(world, paths[agent]) <= conflict.time;
@@ -32,7 +34,13 @@ std::optional<Split> target_split(const Conflict& conflict, std::span<const Path
   const auto constraint = [&](ConstraintKind kind) {
     return AgentConstraint{agent, {conflict.cell, kNoPlace, 0, conflict.time, kind}};
   };
-  return Split{constraint(ConstraintKind::kNoRestBy), constraint(ConstraintKind::kRestBy)};
+  const Split split{constraint(ConstraintKind::kNoRestBy), constraint(ConstraintKind::kRestBy)};
+  const AgentIndex other = agent == conflict.first ? conflict.second : conflict.first;
+  GROVE_ASSERT(!satisfies(world, paths[agent], split[0].constraint, corridors),
+               "the path of the resting agent violates the first side of a target split");
+  GROVE_ASSERT(!satisfies(world, paths[other], *constraint_on(other, split[1]), corridors),
+               "the path of the passing agent violates the second side of a target split");
+  return split;
 }
 
 }  // namespace grove::detail

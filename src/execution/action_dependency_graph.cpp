@@ -41,6 +41,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -62,6 +64,18 @@ struct Stay {
   ActionIndex enters = kNoAction;
   ActionIndex leaves = kNoAction;
 };
+
+// True if each action is in a later step than the actions on which it depends.
+bool is_ordered(const ActionDependencyGraph& order) {
+  std::vector<bool> done(order.actions().size());
+  const auto is_done = [&](ActionIndex a) { return a == kNoAction || done[a]; };
+  for (std::int32_t number = 0; number < order.step_count(); ++number) {
+    for (const ActionIndex a : order.step(number))
+      if (done[a] || !is_done(order.before(a)) || !is_done(order.after(a))) return false;
+    for (const ActionIndex a : order.step(number)) done[a] = true;
+  }
+  return true;
+}
 
 // True if `turn` is an incomplete turn that has reached state `from`.
 bool continues(const Instance& instance, const Action& turn, State from) {
@@ -131,8 +145,9 @@ void ActionDependencyGraph::find_waits(const World& world, const Plan& plan) {
     if (before.leaves == kNoAction || next.enters == kNoAction ||
         actions_[before.leaves].begin >= next.begin)
       throw std::invalid_argument(kCollides);
-    if (actions_[before.leaves].agent != actions_[next.enters].agent)
-      after_[next.enters] = before.leaves;
+    if (actions_[before.leaves].agent == actions_[next.enters].agent) continue;
+    GROVE_CHECK(after_[next.enters] == kNoAction, "a move waits for one other robot");
+    after_[next.enters] = before.leaves;
   }
 }
 
@@ -164,6 +179,8 @@ void ActionDependencyGraph::order_steps() {
       steps_.end_row();
     }
   }
+  GROVE_CHECK(steps_.items().size() == actions_.size(), "each action is in one step");
+  GROVE_ASSERT(is_ordered(*this), "a step comes after the steps on which it depends");
 }
 
 void ActionDependencyGraph::remove_transitive() {
@@ -229,6 +246,8 @@ std::vector<std::vector<TaskVisit>> task_visits(const Instance& instance,
       if (action.kind == Action::Kind::kWork) visits[agent].push_back({action.task, a});
       visit_place(world.place(action.to), a, open[agent], visits[agent]);
     }
+    GROVE_CHECK(std::ranges::is_sorted(visits[agent], {}, &TaskVisit::action),
+                "an agent's visits are in order of its actions");
   }
   return visits;
 }

@@ -197,6 +197,10 @@ Remainder advance(const Instance& instance, const Plan& plan, Time time, Rests r
     rest.ends_with_plan.push_back(agents[i].ends_with_plan());
     AgentPlan& own = rest.plan.agents.emplace_back(agents[i].plan(later));
     end_on_the_place_of_rest(rest.instance, i, own);
+    GROVE_CHECK(own.path.front() == rest.instance.world().base(rest.instance.agent(i).start),
+                "the rest of a plan begins at the starts of its instance");
+    GROVE_ASSERT(std::ranges::none_of(own.sequence, [](TaskIndex task) { return task < 0; }),
+                 "the rest of a sequence holds tasks of the new instance");
     rest.plan.cost += own.cost;
   }
   return rest;
@@ -233,6 +237,8 @@ AgentPlan joined(const Instance& instance, AgentIndex agent, AgentPlan first, Ti
   first.cost = rest.cost > 0 ? time + rest.cost : finish(first);
   first.path.resize(static_cast<std::size_t>(first.cost) + 1, first.path.back());
   end_on_the_place_of_rest(instance, agent, first);
+  GROVE_ASSERT(std::ranges::is_permutation(first.sequence, instance.agent(agent).tasks),
+               "a joined plan visits each task of its agent once");
   return first;
 }
 

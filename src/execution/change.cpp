@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -57,6 +59,10 @@ ClosedMap close_roads(const Roadmap& roadmap, const InstanceChange& change) {
       places.push_back(number[spot.road] < 0 ? kNoPlace
                                              : rest.place_on_road(number[spot.road], spot.steps));
   }
+  GROVE_ASSERT(std::ranges::count_if(places, [](Place place) { return place != kNoPlace; }) +
+                       std::ssize(change.blocked) >=
+                   rest.place_count(),
+               "each place of the new map is one of the earlier map");
   return {std::move(map), std::move(places)};
 }
 
@@ -156,6 +162,8 @@ class ChangeApplication {
       AgentSpec spec = instance_.spec(i);
       spec.start.place = place_now(spec.start.place);
       if (spec.goal) spec.goal = place_now(*spec.goal);
+      GROVE_CHECK(spec.start.place != kNoPlace && spec.goal.value_or(0) != kNoPlace,
+                  "the start and the destination of an agent stay open");
       if (spec.working && is_dropped(spec.working->task)) spec.working.reset();
       builder.add_agent(std::move(spec));
     }
@@ -202,6 +210,7 @@ class ChangeApplication {
       if (!plan.path.empty() && !leads_to(now.world(), plan.path.back(), then)) break;
       plan.path.push_back(then);
     }
+    GROVE_CHECK(!plan.path.empty(), "an agent keeps at least its start");
     const Time end = static_cast<Time>(plan.path.size()) - 1;
     for (const WorkTime& work : before.work)
       if (tasks[work.task] >= 0 && work.end <= end)

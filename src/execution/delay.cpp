@@ -21,6 +21,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -90,6 +92,10 @@ void delay_work_begun_before(const Instance& instance, std::span<const Delay> la
   for (const Delay& l : late) {
     if (!instance.world().is_working(instance.agent(l.agent).start)) continue;
     AgentPlan& robot = plan.agents[l.agent];
+    GROVE_CHECK(
+        !robot.work.empty() &&
+            robot.work.front().task == instance.world().work(instance.agent(l.agent).start).task,
+        "a robot that starts at work completes this work first");
     WorkTime& work = robot.work.front();
     work.begin += l.steps;
     work.end += l.steps;
@@ -118,6 +124,8 @@ Plan delayed_plan(const Instance& instance, const Plan& plan, const ActionDepend
     }
     for (const ActionIndex a : order.step(number)) {
       if (earliest.is_certain(a) && begin > earliest.begin(a)) refuse(instance, order, a, time);
+      GROVE_ASSERT(order.before(a) == kNoAction || trace.end[order.before(a)] <= begin,
+                   "a robot completes an action before it begins the next");
       trace.begin[a] = begin;
       trace.end[a] = begin + order.actions()[a].steps;
     }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -22,6 +24,8 @@ void add_action(const Instance& instance, const AgentPlan& planned, const Action
                 AgentPlan& executed) {
   Path& path = executed.path;
   const Time begin = end - action.steps;
+  GROVE_CHECK(begin + 1 >= std::ssize(path),
+              "a robot begins an action after it has completed the one before");
   path.resize(static_cast<std::size_t>(begin) + 1, path.back());
   if (action.kind == Action::Kind::kWork) {
     const Time duration = instance.task(action.task).duration;
@@ -37,9 +41,13 @@ void add_action(const Instance& instance, const AgentPlan& planned, const Action
   } else {
     const auto from = planned.path.begin() + action.begin;
     // Appends the planned states of the turn, without waits between them.
-    for (auto state = from + 1; path.back() != action.to; ++state)
+    for (auto state = from + 1; path.back() != action.to; ++state) {
+      GROVE_CHECK(state != planned.path.end(), "a planned turn leads to its last state");
       if (*state != path.back()) path.push_back(*state);
+    }
   }
+  GROVE_CHECK(action.kind == Action::Kind::kWork || std::ssize(path) == end + 1,
+              "an executed action takes its steps");
 }
 
 // Returns the robot for which the robots of a step wait. All robots of a ring wait for the same
@@ -70,8 +78,10 @@ ExecutionTrace simulate(const ActionDependencyGraph& order, const Duration& dura
                        std::vector<Time>(order.actions().size(), kNever)};
   for (std::int32_t number = 0; number < order.step_count(); ++number) {
     Time begin = 0;
-    for (const ActionIndex a : order.step(number))
+    for (const ActionIndex a : order.step(number)) {
+      GROVE_ASSERT(trace.begin[a] == kNever, "an action is executed once");
       begin = std::max(begin, may_begin(order, trace, a));
+    }
     if (begin == kNever) continue;
     Time end = begin;
     for (const ActionIndex a : order.step(number))
@@ -98,6 +108,8 @@ Plan executed_plan(const Instance& instance, const Plan& plan, const ActionDepen
       if (trace.end[a] == kNever) break;
       add_action(instance, plan.agents[agent], order.actions()[a], trace.end[a], robot);
     }
+    GROVE_ASSERT(robot.work.size() <= plan.agents[agent].work.size(),
+                 "a robot executes no task that is not in its plan");
     robot.cost = static_cast<Time>(robot.path.size()) - 1;
     executed.cost += robot.cost;
     executed.agents.push_back(std::move(robot));

@@ -25,6 +25,8 @@
 #include <queue>
 #include <vector>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -89,7 +91,10 @@ class PlaceRows {
 
   // Moves `visit` directly behind `other` in the row of their place. To undo this, call move() with
   // the earlier position.
-  void move_behind(int visit, int other) { move(visit, position_[other]); }
+  void move_behind(int visit, int other) {
+    GROVE_ASSERT(place_[visit] == place_[other], "a visit stays in the row of its place");
+    move(visit, position_[other]);
+  }
   int position(int visit) const { return position_[visit]; }
   void move(int visit, int to) {
     auto& row = rows_[place_[visit]];
@@ -100,6 +105,7 @@ class PlaceRows {
     else
       std::rotate(at(to), at(from), at(from) + 1);
     for (int i = std::min(from, to); i <= std::max(from, to); ++i) position_[row[i]] = i;
+    GROVE_ASSERT(row[to] == visit && position_[visit] == to, "a visit is at its position");
   }
 
  private:
@@ -161,6 +167,7 @@ class Switching {
   SwitchableTrace run() {
     event_times_.push(0);
     while (!event_times_.empty()) {
+      GROVE_CHECK(event_times_.top() >= now_, "events are in order of time");
       now_ = event_times_.top();
       while (!event_times_.empty() && event_times_.top() == now_) event_times_.pop();
       begin_enabled();
@@ -216,6 +223,7 @@ class Switching {
       end = std::max(end, end_of_action(now_, duration_(a, now_)));
     }
     for (const ActionIndex a : step) {
+      GROVE_CHECK(result_.trace.begin[a] == kNever, "an action begins once");
       result_.trace.begin[a] = now_;
       result_.trace.end[a] = end;
     }
@@ -275,6 +283,7 @@ class Switching {
     }
     if (group.empty()) return false;
     const Cost before = expected();
+    GROVE_CHECK(before < kInfiniteCost, "robots never wait in a cycle");
     std::vector<std::pair<int, int>> undo;
     for (const auto& [theirs, mine] : group) {
       undo.emplace_back(theirs, rows_.position(theirs));
@@ -285,6 +294,7 @@ class Switching {
       return true;
     }
     for (auto u = undo.rbegin(); u != undo.rend(); ++u) rows_.move(u->first, u->second);
+    GROVE_ASSERT(expected() == before, "a switch that is undone has no effect");
     return false;
   }
 
@@ -349,6 +359,7 @@ class Switching {
     }
   }
   void release(ActionIndex a) {
+    GROVE_ASSERT(left_[step_of_[a]] > 0, "a step waits for each action that releases it");
     if (--left_[step_of_[a]] == 0) queue_.push_back(step_of_[a]);
   }
 

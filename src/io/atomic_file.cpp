@@ -17,6 +17,7 @@
 
 #include "io/file_descriptor.h"
 #include "io/input_error.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 namespace {
@@ -118,6 +119,8 @@ AtomicFile::AtomicFile(const fs::path& path) : name_(path) {
     clear_abandoned_once(target_.parent_path());
     do temporary_ = unused_name(target_.parent_path());
     while (!(file_ = make_locked(temporary_)));
+    GROVE_CHECK(temporary_.parent_path() == target_.parent_path(),
+                "a temporary file is in the folder of the file that it replaces");
   }
   if (!file_->is_open()) fail_to_write(name_);
   if (!temporary_.empty() && fs::exists(status))
@@ -129,10 +132,13 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::write(std::string_view bytes) {
+  GROVE_CHECK(!is_committed_, "a file is complete when it is renamed");
   if (!write_all(file_->get(), bytes)) fail_to_write(name_);
 }
 
 void AtomicFile::commit(Durability durability) {
+  GROVE_CHECK(!is_committed_, "a file is renamed once");
+  is_committed_ = true;
   const bool is_flushed = durability == Durability::kMachine && !temporary_.empty();
   if (is_flushed && ::fsync(file_->get()) != 0) fail_to_write(name_);
   if (!file_->reports_no_error()) fail_to_write(name_);

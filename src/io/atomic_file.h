@@ -40,6 +40,7 @@ class AtomicFile {
   std::filesystem::path target_;      // with symbolic links resolved
   std::filesystem::path temporary_;   // empty: special file, or renamed by commit()
   std::optional<FileDescriptor> file_;
+  bool is_committed_ = false;
 };
 
 // Replaces the content of the file at `path` by `content`, as AtomicFile does. On failure, removes

@@ -18,6 +18,7 @@
 #include "io/scenario_file.h"
 #include "io/state_memory.h"
 #include "io/text_file.h"
+#include "model/assert.h"
 #include "model/distance_field.h"
 
 namespace grove::detail {
@@ -120,8 +121,9 @@ void add_task(InstanceBuilder& builder, const JsonValue& task) {
   }
 }
 
-void add_all(InstanceBuilder& builder, const JsonValue& root, const std::string& file,
-             const InputRules& rules) {
+// Returns the estimate of the states that the instance will have.
+StateMemory add_all(InstanceBuilder& builder, const JsonValue& root, const std::string& file,
+                    const InputRules& rules) {
   StateMemory memory(builder);
   const JsonValue agents = root.member("agents");
   if (agents.size() == 0) agents.fail("expected at least one agent");
@@ -135,13 +137,19 @@ void add_all(InstanceBuilder& builder, const JsonValue& root, const std::string&
     add_task(builder, tasks.element(i));
   }
   memory.require(root, file, rules);
+  return memory;
 }
 
 Instance read_robots(InstanceBuilder builder, const JsonValue& root, const std::string& file,
                      const InputRules& rules = {}) {
-  add_all(builder, root, file, rules);
+  const StateMemory memory = add_all(builder, root, file, rules);
   std::optional<Instance> instance;
   at_place_of(root, [&] { instance = std::move(builder).build(); });
+  GROVE_CHECK(instance->world().state_count() <= memory.states(),
+              "the memory required is that of all states");
+  GROVE_CHECK(instance->agents().size() == root.member("agents").size() &&
+                  instance->tasks().size() == root.member("tasks").size(),
+              "the instance has the agents and tasks of its file");
   return *std::move(instance);
 }
 

@@ -6,6 +6,7 @@
 #include "execution/action_dependency_graph.h"
 #include "io/json_text.h"
 #include "io/path_entry.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 namespace {
@@ -33,6 +34,7 @@ std::vector<int> rings_of(const ActionDependencyGraph& order) {
     for (const ActionIndex a : order.step(number)) rings[a] = ring;
     ++ring;
   }
+  GROVE_CHECK(ring == order.rings(), "each ring has a number");
   return rings;
 }
 
@@ -67,6 +69,7 @@ OrderedJson action_json(const Instance& instance, const ActionDependencyGraph& o
   json["planned"] = planned_begin(instance, order, index);
   if (const ActionIndex other = order.after(index); other != kNoAction) {
     const AgentIndex robot = order.actions()[other].agent;
+    GROVE_CHECK(robot != action.agent, "a robot waits for actions of other robots only");
     json["after"] = {{"robot", instance.agent(robot).id},
                      {"action", other - order.begin_of(robot)}};
   }
@@ -93,6 +96,9 @@ std::string passing_order_text(const Instance& instance, const ActionDependencyG
       const Task& task = instance.task(visit.task);
       if (task.duration > 0) continue;  // its action names the task
       const bool is_at_start = visit.action == kNoAction;
+      GROVE_CHECK(is_at_start ||
+                      (visit.action >= order.begin_of(agent) && visit.action < order.end_of(agent)),
+                  "an agent visits a task by one of its own actions");
       (is_at_start ? robot : actions[visit.action - order.begin_of(agent)])["visits"].push_back(
           task.id);
     }

@@ -7,6 +7,8 @@
 #include <span>
 #include <string_view>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -47,7 +49,9 @@ Place read_road_place(const Roadmap& roadmap, const JsonValue& entry) {
   const Road& road = roadmap.roads()[number];
   if (road.steps == 1) entry.fail("this road has no place between its ends; expected a vertex");
   const auto steps = static_cast<Time>(entry.element(2).integer(1, road.steps - 1));
-  return roadmap.place_on_road(number, road.from == from ? steps : road.steps - steps);
+  const Place place = roadmap.place_on_road(number, road.from == from ? steps : road.steps - steps);
+  GROVE_CHECK(roadmap.spot(place).road == number, "a place on a road is one of its inner places");
+  return place;
 }
 
 Cell cell_on(const Grid& grid, const JsonValue& value, Position p) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <string_view>
 #include <unordered_map>
@@ -14,6 +15,7 @@
 #include "io/known_keys.h"
 #include "io/path_entry.h"
 #include "io/text_file.h"
+#include "model/assert.h"
 #include "model/check.h"
 
 namespace grove::detail {
@@ -80,6 +82,7 @@ template <typename Items>
 IndexById index_by_id(const Items& items) {
   IndexById index;
   for (const auto& item : items) index.emplace(item.id, static_cast<std::int32_t>(index.size()));
+  GROVE_CHECK(index.size() == items.size(), "the ids of an instance are distinct");
   return index;
 }
 
@@ -142,6 +145,12 @@ class PlanReader {
     for (std::size_t t = 0; t < path.size(); ++t)
       plan.path.push_back(instance_.state_of(
           agent, read_pose(instance_.map(), instance_.agent(agent).motion, path.element(t))));
+    GROVE_ASSERT(std::ranges::all_of(plan.path,
+                                     [&](State state) {
+                                       return instance_.world().kind(state) ==
+                                              instance_.agent(agent).kind;
+                                     }),
+                 "a path holds base states of the agent's kind");
     if (const auto work = value.find("work"))
       for (std::size_t k = 0; k < work->size(); ++k)
         plan.work.push_back(read_work(work->element(k)));

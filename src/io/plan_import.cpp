@@ -16,6 +16,7 @@
 #include "io/plan_steps.h"
 #include "io/text_file.h"
 #include "io/yaml_value.h"
+#include "model/assert.h"
 #include "model/parse_number.h"
 
 namespace grove::detail {
@@ -248,6 +249,7 @@ void forget_claims(Solution& solution) {
 }  // namespace
 
 Plan plan_of_paths(const Instance& instance, std::vector<Path> paths) {
+  GROVE_CHECK(std::ssize(paths) == instance.agent_count(), "there is one path for each agent");
   Plan plan;
   for (const Agent& agent : instance.agents()) {
     Path& path = paths[plan.agents.size()];

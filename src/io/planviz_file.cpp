@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "io/atomic_file.h"
@@ -8,6 +9,7 @@
 #include "io/json_text.h"
 #include "io/plan_export.h"
 #include "io/plan_steps.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 namespace {
@@ -38,10 +40,13 @@ char action(const Grid& grid, const Pose& from, const Pose& to, bool is_turning)
   if (from == to) return 'W';
   if (is_turning) {
     if (from.place != to.place) return 'F';
+    GROVE_CHECK(to.heading == right_of(from.heading) || to.heading == left_of(from.heading),
+                "an agent turns by one quarter per step");
     return to.heading == right_of(from.heading) ? 'R' : 'C';
   }
   const Position a = grid.position(from.place);
   const Position b = grid.position(to.place);
+  GROVE_CHECK(std::abs(a.x - b.x) + std::abs(a.y - b.y) == 1, "an agent moves to an adjacent cell");
   if (a.y != b.y) return b.y > a.y ? 'U' : 'D';
   return b.x > a.x ? 'R' : 'L';
 }

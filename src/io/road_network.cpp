@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/input_error.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 namespace {
@@ -97,6 +98,9 @@ void for_each_pair_of_ends(const std::vector<Road>& roads, Visit visit) {
 std::vector<std::pair<int, int>> pairs_alike(const std::vector<Road>& roads,
                                              const std::vector<int>& there,
                                              const std::vector<int>& back) {
+  const auto steps = [&](int road) { return roads[road].steps; };
+  GROVE_CHECK(std::ranges::is_sorted(there, {}, steps) && std::ranges::is_sorted(back, {}, steps),
+              "roads are matched in order of their steps");
   std::vector<std::pair<int, int>> pairs;
   for (auto a = there.begin(), b = back.begin(); a != there.end() && b != back.end();) {
     const Time steps_a = roads[*a].steps;
@@ -146,6 +150,7 @@ std::vector<Road> with_merged_lanes(const std::vector<Road>& roads) {
   std::vector<bool> is_gone(roads.size());
   for_each_pair_of_ends(roads, [&](const std::vector<int>& there, const std::vector<int>& back) {
     for (const auto& pair : pairs_alike(roads, there, back)) {
+      GROVE_CHECK(!is_gone[pair.first] && !is_gone[pair.second], "a lane is merged once");
       changed[std::min(pair.first, pair.second)].one_way = false;
       is_gone[std::max(pair.first, pair.second)] = true;
     }

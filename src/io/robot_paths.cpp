@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -12,6 +13,7 @@
 #include "io/plan_export.h"
 #include "io/plan_steps.h"
 #include "io/yaml_text.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 namespace {
@@ -74,6 +76,8 @@ class WaypointsOf {
   std::vector<std::string> tasks_by_time() const {
     std::vector<std::string> tasks(static_cast<std::size_t>(end()) + 1);
     const std::vector<Time> visits = visit_times(instance_, plan_);
+    GROVE_CHECK(std::ranges::is_sorted(visits) && (visits.empty() || visits.back() <= end()),
+                "a robot visits its tasks in order, before it finishes");
     for (std::size_t i = 0; i < visits.size(); ++i)
       tasks[visits[i]] = instance_.task(plan_.sequence[i]).id;
     for (const WorkTime& work : plan_.work)

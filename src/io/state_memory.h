@@ -30,14 +30,17 @@ class StateMemory {
     if (duration == 0) return;
     work_ += (2 + kHeadingCount * std::ssize(turns_)) * (std::int64_t{duration} + 1);
   }
+  // The upper bound.
+  std::int64_t states() const {
+    std::int64_t on_a_place = 1;
+    for (const Time steps : turns_) on_a_place += 4 + 8 * (std::int64_t{steps} - 1);
+    return places_ * on_a_place + work_;
+  }
   // Throws InputError at `root` if the states need more memory than `rules` permits.
   void require(const JsonValue& root, const std::string& file, const InputRules& rules) const {
     if (turns_.empty() && work_ == 0) return;
-    std::int64_t on_a_place = 1;
-    for (const Time steps : turns_) on_a_place += 4 + 8 * (std::int64_t{steps} - 1);
-    require_memory(rules, file, root.path().empty() ? "/" : root.path(),
-                   places_ * on_a_place + work_, "states of agents that turn or work",
-                   kBytesPerState);
+    require_memory(rules, file, root.path().empty() ? "/" : root.path(), states(),
+                   "states of agents that turn or work", kBytesPerState);
   }
 
  private:

@@ -15,6 +15,8 @@
 #include <map>
 #include <utility>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -136,8 +138,11 @@ class AgentGraphMaker {
       }
       std::sort(graph.moves_.begin() + static_cast<std::ptrdiff_t>(first), graph.moves_.end(),
                 [](const auto& a, const auto& b) { return a.delta_f < b.delta_f; });
+      GROVE_CHECK(graph.moves_.size() > first && graph.moves_[first].delta_f == 0,
+                  "the first move from a node begins a cheapest path");
       graph.first_move_.push_back(static_cast<std::uint32_t>(graph.moves_.size()));
     }
+    GROVE_CHECK(graph.count() == count, "every kept node has one number");
     return graph;
   }
 

@@ -2,7 +2,10 @@
 #include "joint/database_groups.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
+
+#include "model/assert.h"
 
 namespace grove::detail {
 namespace {
@@ -44,6 +47,8 @@ bool DatabaseGroups::make_first(std::deque<Members>& of, const Limits& limits) {
   if (!database) return false;
   databases_.push_back(std::move(*database));
   work_ += work_of(of.front());
+  GROVE_CHECK(&of == &due_ || of.size() == 1 || work_of(of[0]) <= work_of(of[1]),
+              "late databases are made in ascending order of effort");
   bytes_ += PatternDatabase::entries(agents_, of.front());
   of.pop_front();
   return true;
@@ -51,7 +56,9 @@ bool DatabaseGroups::make_first(std::deque<Members>& of, const Limits& limits) {
 
 bool DatabaseGroups::make_next(const Limits& limits) {
   if (!make_first(due_, limits)) return false;
-  if (due_.empty()) group();
+  if (!due_.empty()) return true;
+  GROVE_CHECK(work_ == planned_work_, "the early databases take the planned effort");
+  group();
   return true;
 }
 
@@ -60,6 +67,7 @@ bool DatabaseGroups::is_late_due(std::int64_t of_search) const {
 }
 
 bool DatabaseGroups::make_late(const Limits& limits) {
+  GROVE_CHECK(due_.empty(), "late databases are made after all early ones");
   if (!make_first(late_, limits)) return false;
   group();
   return true;
@@ -71,6 +79,8 @@ void DatabaseGroups::group() {
   Grouping none;
   none.fill(static_cast<std::uint8_t>(databases_.size()));
   add_groupings(0, 0, none, 0);
+  GROVE_ASSERT(std::ranges::adjacent_find(groupings_, std::greater_equal<>()) == groupings_.end(),
+               "groupings are distinct and in lexicographic order");
 }
 
 // Adds all maximal groupings that extend `so_far` by databases with numbers >= `first` whose

@@ -20,6 +20,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -99,6 +101,7 @@ void TimeExpandedGraphs::reach(std::int32_t slot, StageId stage, Time time) {
   const auto [at, is_new] = next_.try_emplace(key, -1);
   if (is_new && goals_->distance(stage, intervals_.state_of(slot)) <= max_cost_ - time) {
     at->second = static_cast<Index>(nodes_.size());
+    GROVE_ASSERT(nodes_.back().time <= time, "nodes are numbered in order of time");
     nodes_.push_back({slot, stage, time});
   }
   if (at->second >= 0) moves_.push_back(at->second);
@@ -119,6 +122,8 @@ void TimeExpandedGraphs::find_finishes() {
     if (may_rest(node)) from.finish = from.time;
     for (Index move = first_move(node); move < from.end_move; ++move)
       from.finish = std::min(from.finish, nodes_[moves_[move]].finish);
+    GROVE_ASSERT(from.finish == kNever || (from.finish >= from.time && from.finish <= max_cost_),
+                 "a path finishes after its nodes and within the maximum cost");
   }
 }
 
@@ -155,6 +160,9 @@ void TimeExpandedGraphs::write(AgentGraph& graph) const {
         graph.moves_.push_back({number[moves_[move]], to.finish - from.finish});
     std::ranges::sort(graph.moves_.begin() + first, graph.moves_.end(), {},
                       &AgentGraph::Move::delta_f);
+    GROVE_ASSERT(std::ssize(graph.moves_) > first &&
+                     graph.moves_[static_cast<std::size_t>(first)].delta_f == 0,
+                 "the first move from a node begins a cheapest path");
     graph.first_move_.push_back(static_cast<std::uint32_t>(graph.moves_.size()));
   }
   for (const auto& [state, node] : rests) {
@@ -162,6 +170,7 @@ void TimeExpandedGraphs::write(AgentGraph& graph) const {
     graph.moves_.push_back({node, 0});
     graph.first_move_.push_back(static_cast<std::uint32_t>(graph.moves_.size()));
   }
+  GROVE_CHECK(graph.count() == count, "every kept node has one number");
 }
 
 }  // namespace grove::detail

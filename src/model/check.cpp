@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "model/agent_check.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 namespace {
@@ -50,6 +51,8 @@ class CollisionCheck {
         for (AgentIndex i = 0; i < agent_count(); ++i) before_[at(i, t - 1)] = kNoAgent;
       std::swap(before_, now_);
     }
+    GROVE_ASSERT(std::ranges::count(now_, kNoAgent) == std::ssize(now_),
+                 "agents enter a table that is empty");
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <optional>
 
+#include "model/assert.h"
 #include "model/thread_team.h"
 
 namespace grove::detail {
@@ -137,6 +138,8 @@ class Walker {
     };
     for (const State state : targets) reach(state, 0);
     for (std::size_t head = 0; head < end; ++head) {
+      GROVE_ASSERT(head == 0 || distances[queue_[head - 1]] <= distances[queue_[head]],
+                   "the distances of a breadth-first search never fall");
       const auto steps = static_cast<Steps>(distances[queue_[head]] + 1);
       if (steps == never) return false;
       for (const State before : world_.moves_to(queue_[head])) reach(before, steps);
@@ -217,6 +220,8 @@ DistanceFields::DistanceFields(const Instance& instance, const Limits& limits, i
   for (const int set : targets.of_agents) by_agent_.push_back(distances(set));
   for (const int set : targets.of_ports) by_port_.push_back(distances(set));
   kinds_ = static_cast<std::size_t>(instance.world().kind_count());
+  GROVE_CHECK(std::ranges::none_of(by_task_, [](DistanceView view) { return !view; }),
+              "each task has a distance field");
   complete_ = true;
 }
 

@@ -118,7 +118,10 @@ class DistanceFields {
   // Distances to one port of the task: the states in which an agent of kind `kind` visits it with
   // heading `port`. Preconditions: has_ports(), and the task is a stop of an agent of this kind.
   DistanceView to_port(TaskIndex task, int kind, int port) const {
-    return by_port_[(static_cast<std::size_t>(task) * kinds_ + kind) * kPorts + port];
+    const DistanceView view =
+        by_port_[(static_cast<std::size_t>(task) * kinds_ + kind) * kPorts + port];
+    GROVE_ASSERT(view, "a port belongs to a stop of an agent of its kind");
+    return view;
   }
   // Distances to the states where the agent may rest. Precondition: the agent does not rest on the
   // last stop of its sequence.

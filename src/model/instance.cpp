@@ -6,8 +6,22 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
+
+bool references_agree(const Instance& instance) {
+  std::size_t named = 0;
+  std::size_t held = 0;
+  for (TaskIndex task = 0; task < instance.task_count(); ++task) {
+    for (const AgentIndex agent : instance.task(task).agents)
+      if (std::ranges::count(instance.agent(agent).tasks, task) != 1) return false;
+    named += instance.task(task).agents.size();
+  }
+  for (const Agent& agent : instance.agents()) held += agent.tasks.size();
+  return named == held;
+}
 
 void require_new_id(const std::string& id, bool is_new) {
   if (id.empty()) throw InstanceError("id", "expected an id that is not empty");
@@ -211,6 +225,8 @@ Instance InstanceBuilder::build() && {
     if (specs_[i].working) require_work(i, *specs_[i].working);
   }
   make_world();
+  GROVE_ASSERT(references_agree(instance_),
+               "a task names an agent if and only if the agent has it");
   return std::move(instance_);
 }
 
@@ -225,6 +241,13 @@ void InstanceBuilder::choose_stops(Agent& agent) const {
         std::ranges::any_of(agent.tasks, [&](TaskIndex t) { return is_here(t) && takes_time(t); });
     if (takes_time(task) || (!work_here && *first_here == task)) agent.stops.push_back(task);
   }
+  GROVE_ASSERT(std::ranges::all_of(agent.tasks,
+                                   [&](TaskIndex t) {
+                                     return std::ranges::any_of(agent.stops, [&](TaskIndex stop) {
+                                       return instance_.task(stop).cell == instance_.task(t).cell;
+                                     });
+                                   }),
+               "an agent has a stop on the place of each of its tasks");
 }
 
 void InstanceBuilder::require_work(AgentIndex agent, const WorkBegun& begun) const {
@@ -301,6 +324,10 @@ void InstanceBuilder::make_world() {
     if (spec.working)
       agent.start = instance_.motion_world_->working(task_by_id_.at(spec.working->task),
                                                      agent.start, spec.working->done);
+    GROVE_CHECK(instance_.world().place(agent.start) == spec.start.place,
+                "an agent starts on the place of its specification");
+    GROVE_CHECK(instance_.world().kind(agent.start) == agent.kind,
+                "an agent starts in a state of its kind");
   }
 }
 

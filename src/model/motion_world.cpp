@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -174,12 +176,18 @@ MotionWorld::Parts MotionWorld::parts(const Map& map, std::span<const Motion> mo
     end_row();
   }
   for (std::size_t w = 0; w < parts.work.size(); ++w) {
-    if (parts.work[w].completed)
+    if (parts.work[w].completed) {
       moves_of_base(parts.work[w].base);
-    else
+    } else {
+      GROVE_ASSERT(parts.work[w + 1].base == parts.work[w].base &&
+                       parts.work[w + 1].done == parts.work[w].done + 1,
+                   "the next state of a task execution has one more step done");
       moves.assign(1, static_cast<State>(bases) + static_cast<State>(w) + 1);
+    }
     end_row();
   }
+  GROVE_CHECK(parts.moves.count() == bases + std::ssize(parts.work),
+              "there is one row of moves for each state");
   return parts;
 }
 
@@ -204,8 +212,10 @@ State MotionWorld::base_state(const Map& map, std::span<const Motion> motions, i
 Pose MotionWorld::pose(State base) const {
   const int kind = this->kind(base);
   const Place here = place(base);
-  return pose_of_rank(motions_[static_cast<std::size_t>(kind - 1)], here,
-                      base - bases(here, kind).first);
+  const Pose pose = pose_of_rank(motions_[static_cast<std::size_t>(kind - 1)], here,
+                                 base - bases(here, kind).first);
+  GROVE_ASSERT(state(kind, pose) == base, "a base state and its pose determine each other");
+  return pose;
 }
 
 State MotionWorld::working(TaskIndex task, State base, Time done) const {

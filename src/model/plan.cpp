@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -61,6 +63,12 @@ AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
   const auto end = static_cast<Time>(path.size()) - 1;
   while (plan.cost < end && !instance.may_rest(agent, plan.path[plan.cost])) ++plan.cost;
   plan.path.resize(static_cast<std::size_t>(plan.cost) + 1, plan.path.back());
+  GROVE_ASSERT(instance.may_rest(agent, plan.path.back()),
+               "an agent's plan ends where it may rest");
+  GROVE_ASSERT(std::ranges::is_permutation(plan.sequence, instance.agent(agent).tasks),
+               "an agent's sequence holds each of its tasks once");
+  GROVE_ASSERT(std::ranges::is_sorted(plan.work, {}, &WorkTime::begin),
+               "task executions are in order of time");
   return plan;
 }
 
@@ -91,11 +99,22 @@ AgentPlan with_work_before_turns(const Instance& instance, AgentPlan plan) {
     const auto at = [&](Time t) { return plan.path.begin() + t; };
     std::rotate(at(turn) + 1, at(work.begin) + 1, at(work.end) + 1);
     std::fill_n(at(turn) + 1, work.end - work.begin, plan.path[turn]);
+    GROVE_ASSERT(turn >= 0 && turn <= work.begin, "a task execution is only moved back");
     work.end -= work.begin - turn;
     work.begin = turn;
   }
   return plan;
 }
+
+namespace {
+
+bool follows_moves(const World& world, const Path& path) {
+  return std::ranges::adjacent_find(path, [&](State from, State to) {
+           return from != to && std::ranges::count(world.moves(from), to) == 0;
+         }) == path.end();
+}
+
+}  // namespace
 
 Path walked_path(const Instance& instance, AgentIndex agent, const AgentPlan& given) {
   const AgentPlan plan = with_work_before_turns(instance, given);
@@ -111,6 +130,7 @@ Path walked_path(const Instance& instance, AgentIndex agent, const AgentPlan& gi
     for (Time t = work.end + 1; t <= plan.cost && plan.path[t] == base; ++t)
       path[t] = path[work.end];
   }
+  GROVE_ASSERT(follows_moves(instance.world(), path), "a walked path consists of moves and waits");
   return path;
 }
 

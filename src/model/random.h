@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 
 // Draw number `number` >= 0 of the sequence with seed `seed`, in [0, 1). It is a function of the
@@ -32,6 +34,7 @@ class Random {
   // A uniform draw from 0, ..., bound - 1. Precondition: bound > 0.
   template <std::integral Int>
   Int below(Int bound) {
+    GROVE_ASSERT(bound > 0, "a draw is from a range that is not empty");
     const auto n = static_cast<std::uint64_t>(bound);
     std::uint64_t draw = engine_();
     // Rejects draws below 2^64 mod n, so that the result is uniform.
@@ -79,6 +82,7 @@ class SplitMix64 {
   // A draw from 0, ..., n - 1. Precondition: n > 0. The distribution is uniform up to a relative
   // error of n / 2^32, so n should be small.
   std::uint32_t below(std::uint32_t n) {
+    GROVE_ASSERT(n > 0, "a draw is from a range that is not empty");
     return static_cast<std::uint32_t>(std::uint64_t{next()} * n >> 32);
   }
 

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -73,6 +75,9 @@ Roadmap::Roadmap(std::vector<Vertex> vertices, std::vector<Road> roads)
   }
   for (std::size_t r = 0; r < roads_.size(); ++r)
     by_ends_[std::minmax(roads_[r].from, roads_[r].to)].push_back(static_cast<int>(r));
+  GROVE_CHECK(place_count() == first_inner_.back(),
+              "the places are the vertices and the inner "
+              "places of roads");
 }
 
 std::span<const int> Roadmap::roads_between(int a, int b) const {
@@ -93,7 +98,10 @@ Roadmap::Spot Roadmap::spot(Place place) const {
   if (place < static_cast<Place>(vertices_.size())) return {.vertex = place};
   const auto after = std::ranges::upper_bound(first_inner_, place);
   const auto road = static_cast<int>(after - first_inner_.begin()) - 1;
-  return {.road = road, .steps = place - first_inner_[road] + 1};
+  const Spot spot{.road = road, .steps = place - first_inner_[road] + 1};
+  GROVE_ASSERT(spot.steps < roads_[road].steps && place_on_road(road, spot.steps) == place,
+               "an inner place is on one road, between its ends");
+  return spot;
 }
 
 Point Roadmap::at(Place place) const {

@@ -82,12 +82,15 @@ SharedArrays::SharedArrays(std::span<std::byte> memory, const ArrayLayout& layou
       begin += aligned(room);
       flag += sizeof(SharedArray::Flag);
     }
+  GROVE_CHECK(begin == bytes(layout), "the arrays take exactly the memory of their layout");
+  GROVE_CHECK(flag <= zero_bytes(layout), "the flags are in memory that was zero at first");
 }
 
 SharedArray SharedArrays::array(ArrayKind kind, std::size_t number) const {
   const std::vector<Room>& rooms = rooms_[static_cast<std::size_t>(kind)];
   if (number >= rooms.size()) return {};
   const Room& room = rooms[number];
+  GROVE_ASSERT(room.begin + room.bytes <= memory_.size(), "an array is inside its memory");
   std::byte* const begin = memory_.data();
   // The bytes of the flag were initially zero, which represents an atomic integer with value 0.
   return {reinterpret_cast<SharedArray::Flag*>(begin + room.flag), begin + room.begin, room.bytes};

@@ -4,6 +4,8 @@
 #include <system_error>
 #include <utility>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 
 ThreadTeam::ThreadTeam(int threads) {
@@ -25,6 +27,7 @@ ThreadTeam::~ThreadTeam() {
 void ThreadTeam::run(const std::function<void(int thread)>& work) {
   {
     const std::lock_guard lock(mutex_);
+    GROVE_CHECK(busy_ == 0 && !closed_, "a team performs one piece of work at a time");
     work_ = &work;
     busy_ = static_cast<int>(others_.size());
     ++round_;

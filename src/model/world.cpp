@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -42,6 +44,19 @@ CsrArray joined(const CsrArray& a, const CsrArray& b) {
   return both;
 }
 
+bool ranks_are_consecutive(const World& world) {
+  for (Place place = 0; place < world.place_count(); ++place) {
+    int rank = 0;
+    bool consecutive = true;
+    world.for_each_state(place, [&](State state) {
+      consecutive =
+          consecutive && world.place(state) == place && world.rank_on_place(state) == rank++;
+    });
+    if (!consecutive || rank != world.states_on(place)) return false;
+  }
+  return true;
+}
+
 int longest_row(const CsrArray& rows) {
   std::size_t longest = 0;
   for (std::int32_t row = 0; row < rows.count(); ++row)
@@ -51,11 +66,30 @@ int longest_row(const CsrArray& rows) {
 
 }  // namespace
 
+WorkingStates::WorkingStates(State first, std::vector<Work> work, std::span<const Place> place_of,
+                             Place places, int bases_on_a_place)
+    : first_(first), work_(std::move(work)), rank_(work_.size()) {
+  std::vector<std::vector<State>> on_place(static_cast<std::size_t>(places));
+  for (std::size_t w = 0; w < work_.size(); ++w) {
+    std::vector<State>& here = on_place[place_of[w]];
+    rank_[w] = bases_on_a_place + static_cast<std::int32_t>(here.size());
+    here.push_back(first + static_cast<State>(w));
+  }
+  for (const std::vector<State>& here : on_place) {
+    for (const State state : here) on_place_.add(state);
+    on_place_.end_row();
+  }
+}
+
+int WorkingStates::max_on_a_place() const {
+  return longest_row(on_place_);
+}
+
 World::World(CsrArray moves)
     : places_(moves.count()),
       max_moves_(longest_row(moves)),
-      first_working_(moves.count()),
-      moves_(std::move(moves)) {
+      moves_(std::move(moves)),
+      working_(moves_.count()) {
   CsrArray back = reversed(moves_);
   is_symmetric_ = same_sets(moves_, back);
   if (is_symmetric_) return;
@@ -68,8 +102,10 @@ World::World(CsrArray moves, Place row_width)
     : places_(moves.count()),
       row_width_(row_width),
       max_moves_(longest_row(moves)),
-      first_working_(moves.count()),
-      moves_(std::move(moves)) {}
+      moves_(std::move(moves)),
+      working_(moves_.count()) {
+  GROVE_ASSERT(same_sets(moves_, reversed(moves_)), "each move of a grid has its reverse");
+}
 
 World::World(const World& ground, std::vector<Kind> kinds, std::vector<Work> work, CsrArray moves)
     : places_(ground.place_count()),
@@ -77,31 +113,29 @@ World::World(const World& ground, std::vector<Kind> kinds, std::vector<Work> wor
       max_moves_(longest_row(moves)),
       is_symmetric_(false),
       has_other_neighbors_(true),
-      first_working_(moves.count() - static_cast<State>(work.size())),
       moves_(std::move(moves)),
       moves_back_(reversed(moves_)),
       kinds_(std::move(kinds)),
-      work_(std::move(work)),
-      work_rank_(work_.size()) {
+      working_(moves_.count() - static_cast<State>(work.size())) {
   bases_on_a_place_ = 0;
   for (const Kind& kind : kinds_) bases_on_a_place_ += kind.on_a_place;
   for (std::size_t k = 1; k < kinds_.size(); ++k)
     for (Place place = 0; place < places_; ++place)
       place_of_.insert(place_of_.end(), kinds_[k].on_a_place, place);
-  std::vector<std::vector<State>> working(static_cast<std::size_t>(places_));
-  for (std::size_t w = 0; w < work_.size(); ++w) {
-    const Place here = place(work_[w].base);
-    place_of_.push_back(here);
-    work_rank_[w] = bases_on_a_place_ + static_cast<std::int32_t>(working[here].size());
-    working[here].push_back(first_working_ + static_cast<State>(w));
-  }
+  std::vector<Place> work_places;
+  for (const Work& w : work) work_places.push_back(place(w.base));
+  place_of_.insert(place_of_.end(), work_places.begin(), work_places.end());
+  const State first = moves_.count() - static_cast<State>(work.size());
+  working_ = WorkingStates(first, std::move(work), work_places, places_, bases_on_a_place_);
   for (Place here = 0; here < places_; ++here) {
-    for (const State state : working[here]) working_.add(state);
-    working_.end_row();
     for (const Place there : ground.neighbors(here)) neighbors_.add(there);
     neighbors_.end_row();
   }
-  max_states_on_a_place_ = bases_on_a_place_ + longest_row(working_);
+  max_states_on_a_place_ = bases_on_a_place_ + working_.max_on_a_place();
+  GROVE_CHECK(static_cast<std::int64_t>(places_) * bases_on_a_place_ == first,
+              "the states at work are numbered directly after the base states");
+  GROVE_CHECK(std::ssize(place_of_) == state_count() - places_, "each state has one place");
+  GROVE_ASSERT(ranks_are_consecutive(*this), "the states on a place have the ranks 0, 1, ...");
 }
 
 int World::kind_of_base(State state) const {
@@ -111,7 +145,7 @@ int World::kind_of_base(State state) const {
 }
 
 int World::rank_of(State state) const {
-  if (is_working(state)) return work_rank_[state - first_working_];
+  if (is_working(state)) return working_.rank_on_place(state);
   int before = 0;
   int kind = 0;
   while (kind + 1 < kind_count() && kinds_[kind + 1].first <= state)

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 
 // The number of a place, which at most one agent occupies at a time, for example a cell of a grid.
@@ -63,6 +65,34 @@ struct Work {
   State base = kNoState;  // the base state in which the agent works
 };
 
+// The states at work of a world, numbered after its base states.
+class WorkingStates {
+ public:
+  // No states at work; the base states are 0, ..., `bases` - 1.
+  explicit WorkingStates(State bases) : first_(bases) {}
+  // The states `first`, `first` + 1, ..., one for each entry of `work`. `place_of` has one entry
+  // for each of them, too. Each of the `places` places has `bases_on_a_place` base states.
+  WorkingStates(State first, std::vector<Work> work, std::span<const Place> place_of, Place places,
+                int bases_on_a_place);
+
+  bool has(State state) const { return state >= first_; }
+  // Precondition of work() and rank_on_place(): has(state).
+  const Work& work(State state) const {
+    GROVE_ASSERT(has(state), "only a state at work belongs to a task execution");
+    return work_[state - first_];
+  }
+  std::int32_t rank_on_place(State state) const { return rank_[state - first_]; }
+  // The states at work on `place`, ascending. Precondition: not every state is equal to its place.
+  std::span<const State> on(Place place) const { return on_place_[place]; }
+  int max_on_a_place() const;
+
+ private:
+  State first_;
+  CsrArray on_place_;               // by place; empty if every state is equal to its place
+  std::vector<Work> work_;          // by state, from first_ on
+  std::vector<std::int32_t> rank_;  // by state, from first_ on
+};
+
 // The motion graph of an instance: places, states on these places, and moves between states. A move
 // takes one step. An agent may wait in every state; a wait is not a move (docs/design.md, section
 // 1).
@@ -100,7 +130,8 @@ class World {
   // The number of states on `place`: base states of all kinds, and states at work. It is 1 on grids
   // and roadmaps. rank_on_place() numbers these states 0, ..., states_on(place) - 1.
   int states_on(Place place) const {
-    return states_are_places() ? 1 : bases_on_a_place_ + static_cast<int>(working_[place].size());
+    return states_are_places() ? 1
+                               : bases_on_a_place_ + static_cast<int>(working_.on(place).size());
   }
   int max_states_on_a_place() const { return max_states_on_a_place_; }
   int rank_on_place(State state) const { return state < places_ ? 0 : rank_of(state); }
@@ -111,7 +142,7 @@ class World {
     if (states_are_places()) return;
     for (int kind = 1; kind < kind_count(); ++kind)
       for (State s = bases(place, kind).first; s < bases(place, kind).end; ++s) visit(s);
-    for (const State s : working_[place]) visit(s);
+    for (const State s : working_.on(place)) visit(s);
   }
 
   // kind_count() includes kind 0. kind() of a state at work is the kind of its base state. bases()
@@ -124,12 +155,10 @@ class World {
   }
   // If `state` is a state at work, the base state in which the agent works; otherwise `state`
   // itself.
-  State base(State state) const {
-    return state < first_working_ ? state : work_[state - first_working_].base;
-  }
-  bool is_working(State state) const { return state >= first_working_; }
+  State base(State state) const { return working_.has(state) ? working_.work(state).base : state; }
+  bool is_working(State state) const { return working_.has(state); }
   // Precondition: is_working(state).
-  const Work& work(State state) const { return work_[state - first_working_]; }
+  const Work& work(State state) const { return working_.work(state); }
   // The maximum time from a base state of this kind to a different one on the same place.
   Time max_turn_time(int kind) const { return kinds_[kind].max_turn_time; }
 
@@ -175,15 +204,12 @@ class World {
   int max_states_on_a_place_ = 1;
   bool is_symmetric_ = true;
   bool has_other_neighbors_ = false;
-  State first_working_;
-  CsrArray moves_;       // by state
-  CsrArray moves_back_;  // by state; empty if it would be equal to moves_
-  CsrArray neighbors_;   // by place; empty if it would be equal to moves_
-  CsrArray working_;     // by place: its states at work; empty if every state is equal to its place
+  CsrArray moves_;               // by state
+  CsrArray moves_back_;          // by state; empty if it would be equal to moves_
+  CsrArray neighbors_;           // by place; empty if it would be equal to moves_
   std::vector<Place> place_of_;  // by state, from places_ on
   std::vector<Kind> kinds_{Kind{}};
-  std::vector<Work> work_;               // by state, from first_working_ on
-  std::vector<std::int32_t> work_rank_;  // by state, from first_working_ on: rank on its place
+  WorkingStates working_;
 };
 
 }  // namespace grove::detail

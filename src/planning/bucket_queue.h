@@ -122,6 +122,8 @@ inline bool BasicBucketQueue<Progress>::pop(Entry& entry) {
     for (; level_ < levels_used_; ++level_) {
       const std::int32_t node = current_[level_];
       if (node == kNone) continue;
+      GROVE_ASSERT(pool_[node].layer == layer_ && pool_[node].entry.conflicts == level_,
+                   "an entry is popped in its layer, by its number of conflicts");
       current_[level_] = pool_[node].next;
       entry = pool_[node].entry;
       return true;
@@ -160,6 +162,7 @@ inline bool BasicBucketQueue<Progress>::move_window() {
   Time first = kNever;
   for (std::int32_t node = beyond_; node != kNone; node = pool_[node].next)
     first = std::min(first, pool_[node].layer);
+  GROVE_ASSERT(first > layer_, "the layers after the window are later than the current one");
   layer_ = window_begin_ = first;
   window_used_ = 0;
   place_all(beyond_);

@@ -46,9 +46,11 @@ void ConflictAvoidanceTable::make_room(std::size_t steps) {
     const auto place = static_cast<Place>(counts.key & ((std::uint64_t{1} << kPlaceBits) - 1));
     const auto time = static_cast<Time>(counts.key >> kPlaceBits & kLastTime);
     counts.key = key(place, time);
+    GROVE_ASSERT(counts_[slot(counts.key)].key != counts.key, "a place and time has one entry");
     counts_[slot(counts.key)] = counts;
     mark(place, time);
   }
+  GROVE_ASSERT(kSparsity * (keys_ + steps) <= counts_.size(), "there is room for the new steps");
 }
 
 void ConflictAvoidanceTable::begin_generation() {
@@ -82,6 +84,7 @@ void ConflictAvoidanceTable::add(const Path& path) {
     const Place place = world_.place(path[t]);
     mark(place, t);
     Counts& counts = insert(key(place, t));
+    GROVE_ASSERT(counts.visits < UINT16_MAX, "few enough paths are in the table");
     ++counts.visits;
     if (t > 0 && before != place) ++counts.moves[direction(world_, before, place)];
     before = place;
@@ -102,7 +105,11 @@ void ConflictAvoidanceTable::remove(const Path& path) {
     GROVE_ASSERT(counts.key == key(place, t) && counts.visits > 0,
                  "a path must be in the table before it is removed");
     --counts.visits;
-    if (t > 0 && before != place) --counts.moves[direction(world_, before, place)];
+    if (t > 0 && before != place) {
+      GROVE_ASSERT(counts.moves[direction(world_, before, place)] > 0,
+                   "a move must be in the table before it is removed");
+      --counts.moves[direction(world_, before, place)];
+    }
     before = place;
   }
   const Place end = world_.place(path.back());
@@ -114,6 +121,8 @@ void ConflictAvoidanceTable::remove(const Path& path) {
   first_rest_[end] = kNever;
   for (const Rest& rest : rests_)
     if (rest.place == end) first_rest_[end] = std::min(first_rest_[end], rest.since);
+  GROVE_ASSERT(!rests_.empty() || first_rest_[end] == kNever,
+               "no place is rested on in an empty table");
 }
 
 void ConflictAvoidanceTable::clear() {

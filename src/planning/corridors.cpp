@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -54,7 +56,10 @@ void Corridors::add_corridor_through(const World& world, Place inner) {
 
 void Corridors::number_inner_places(int corridor) {
   const auto row = places(corridor);
+  GROVE_CHECK(row.size() >= 3, "a corridor has two ends and an inner place");
   for (std::size_t i = 1; i + 1 < row.size(); ++i) {
+    GROVE_CHECK(corridor_of_[row[i]] == kNoCorridor && position_[row[i]] == 0,
+                "a place is inside one corridor");
     corridor_of_[row[i]] = corridor;
     position_[row[i]] = static_cast<std::int32_t>(i);
   }

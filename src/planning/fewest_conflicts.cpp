@@ -39,6 +39,7 @@ void FewestConflicts::find(const Mdd& paths, const ConflictAvoidanceTable& other
   for (NodeId other = first.first; other < first.end; ++other)
     if (best_[other].conflicts < best_[node].conflicts) node = other;
   for (; node != kNoNode; node = best_[node].next) path.push_back(paths.state(node));
+  GROVE_ASSERT(std::ssize(path) == cost + 1, "a path has a node in each layer of its MDD");
 }
 
 FewestConflicts::Best FewestConflicts::best_step(const Mdd& paths, NodeId node,
@@ -50,6 +51,7 @@ FewestConflicts::Best FewestConflicts::best_step(const Mdd& paths, NodeId node,
     if (const std::int32_t conflicts = best_[next].conflicts + swaps; conflicts < best.conflicts)
       best = {conflicts, next};
   }
+  GROVE_ASSERT(best.next != kNoNode, "a node before the last layer has a successor");
   return best;
 }
 

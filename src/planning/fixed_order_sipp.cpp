@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "model/assert.h"
 #include "planning/fixed_order_goals.h"
 #include "planning/safe_interval_search.h"
 
@@ -30,6 +31,9 @@ PathOutcome FixedOrderSipp::find(const GoalSequence& goals, const PathQuery& que
   search.begin(goals.start(), 0, goals.distance(goals.start(), 0), query.others, limits);
   switch (search.run(search.expanded_after(query.label_limit))) {
     case Workspace::End::kFound:
+      GROVE_ASSERT(search.cost() >= goals.distance(goals.start(), 0) &&
+                       search.cost() >= search.goals().first_rest(),
+                   "no path costs less than its distance or ends before it may");
       if (search.cost() > query.cutoff) return PathOutcome::kAboveCutoff;
       search.write_path(path);
       return PathOutcome::kFound;

@@ -70,6 +70,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "model/assert.h"
 #include "planning/free_order_goals.h"
 #include "planning/late_costs.h"
 #include "planning/safe_interval_search.h"
@@ -212,6 +213,10 @@ std::optional<PathOutcome> FreeOrderSipp::Workspace::find_within(Time cap) {
   for (;;) {
     switch (search_.run(std::min({abort_at_, check_feasibility_at_, recompute_costs_at_}))) {
       case Search::End::kFound:
+        GROVE_ASSERT(search_.cost() <= cap && search_.cost() >= search_.goals().first_rest(),
+                     "a path costs at most the cap, and ends no earlier than it may");
+        GROVE_ASSERT(goals().distance(first, goals().stops().start()) <= search_.cost(),
+                     "the costs to go do not exceed the cost of a path");
         search_.write_path(*path_);
         return PathOutcome::kFound;
       case Search::End::kExhausted:

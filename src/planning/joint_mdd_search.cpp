@@ -23,6 +23,8 @@
 #include <span>
 #include <vector>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -136,6 +138,7 @@ Dependence JointMddSearch::find(const Mdd& a, const Mdd& b, std::size_t max_pair
 
 Dependence JointMddSearch::Workspace::find(const Mdd& a, const Mdd& b, std::size_t max_pairs,
                                            const Limits& limits) {
+  GROVE_ASSERT(!a.empty() && !b.empty(), "both agents have a path");
   a_ = &a;
   b_ = &b;
   max_pairs_ = max_pairs;
@@ -211,6 +214,7 @@ void JointMddSearch::Workspace::expand(const Pair& pair) {
       const Place to_a = a_->place(i);
       const Place to_b = b_->place(j);
       if (to_a == to_b || (to_a == from_b && to_b == from_a)) continue;
+      GROVE_ASSERT(pair.time + 1 <= last_contact_, "pairs after the last contact are not expanded");
       if (known_.insert(i, j)) open_.push_back({i, j, pair.time + 1});
     }
 }

@@ -63,6 +63,8 @@ class LabelPlanes {
   Label& label(std::int32_t slot, std::int32_t state) {
     const Use& use = by_state_[state];
     GROVE_ASSERT(use.stamp == stamp_, "the state must be open");
+    GROVE_ASSERT(slot >= 0 && static_cast<std::size_t>(slot) < capacity_,
+                 "a slot is within its plane");
     Label& found = use.labels[slot];
     if (auto& touched = use.touched[slot / kGroup]; !touched) {
       touched = true;
@@ -120,6 +122,7 @@ class LabelPlanes {
     }
     if (static_cast<std::size_t>(state) >= by_state_.size())
       by_state_.resize(2 * static_cast<std::size_t>(state) + 1);
+    GROVE_ASSERT(by_state_[state].stamp != stamp_, "a state has one plane in a search");
     Piece& piece = pieces_[used_ / planes_per_piece_];
     const std::size_t plane = used_++ % planes_per_piece_;
     by_state_[state] = {piece.labels.get() + plane * capacity_,

@@ -38,6 +38,7 @@
 
 #include <algorithm>
 
+#include "model/assert.h"
 #include "model/hash.h"
 #include "planning/bucket_queue.h"
 #include "planning/label_planes.h"
@@ -66,12 +67,13 @@ class MddBuilder::Workspace {
   static constexpr NodeId kNoNode = -1;
   static constexpr Time kTooLate = -1;
 
+  // A slot and a stage, and the moves out of it.
   struct Label {
     std::int32_t slot;
     StageId stage;
     Time earliest;
     Time latest = kTooLate;
-    std::int32_t first_move = 0;  // index in moves_ of the first move out of the label
+    std::int32_t first_move = 0;  // number of the first move out of the label
     std::int32_t end_move = 0;
   };
   // A move that may arrive at any time from `first` to `last` that is not barred.
@@ -80,6 +82,43 @@ class MddBuilder::Workspace {
     LabelId to;
     Time first;
     Time last;
+  };
+  // The labels, and the moves between them.
+  class Graph {
+   public:
+    void clear() {
+      labels_.clear();
+      moves_.clear();
+    }
+    LabelId label_count() const { return static_cast<LabelId>(labels_.size()); }
+    Label& operator[](LabelId label) { return labels_[label]; }
+    const Label& operator[](LabelId label) const { return labels_[label]; }
+    LabelId add(const Label& label) {
+      labels_.push_back(label);
+      return label_count() - 1;
+    }
+    // All moves out of a label are added between begin_moves() and end_moves() of this label.
+    void begin_moves(LabelId from) { labels_[from].first_move = move_count(); }
+    void add_move(const Move& move) { moves_.push_back(move); }
+    void end_moves(LabelId from) { labels_[from].end_move = move_count(); }
+    std::span<const Move> moves_from(const Label& label) const {
+      return {moves_.data() + label.first_move, moves_.data() + label.end_move};
+    }
+    // Makes the index that for_each_move_into() needs; call it once all moves are added.
+    void index_targets();
+    template <class Visit>
+    void for_each_move_into(LabelId label, Visit visit) const {
+      for (std::int32_t in = first_in_[label]; in < first_in_[label + 1]; ++in)
+        visit(moves_[into_[in]]);
+    }
+
+   private:
+    std::int32_t move_count() const { return static_cast<std::int32_t>(moves_.size()); }
+
+    std::vector<Label> labels_;
+    std::vector<Move> moves_;             // grouped by the label that they leave
+    std::vector<std::int32_t> into_;      // numbers of moves, grouped by the label that they enter
+    std::vector<std::int32_t> first_in_;  // index in into_, by label; one more at the end
   };
   // Data of one (slot, stage) pair.
   struct Mark {
@@ -95,32 +134,28 @@ class MddBuilder::Workspace {
   void reach(LabelId from, std::int32_t slot, StageId stage, Time first);
   Mark* mark(std::int32_t slot, StageId stage);
   void go_backward();
-  void sort_moves();
   void find_ends();
   void leave_by(const Move& move, Time arrival);
   Time last_arrival(const Move& move, Time latest) const;
   std::size_t count_nodes() const;
   void write_layers();
   void write_nodes(Time time);
-  void write_successors(const Label& label, Time time);
+  void write_successors(LabelId from, Time time);
   bool is_end(const Label& label) const;
-  State state(LabelId label) const { return intervals_.state_of(labels_[label].slot); }
+  State state(LabelId label) const { return intervals_.state_of(graph_[label].slot); }
   Place place(LabelId label) const { return world_.place(state(label)); }
 
   const World& world_;
   SafeIntervals intervals_;
   LabelPlanes<Mark> planes_;
   BucketQueue queue_;  // Entry::slot is a LabelId here
-  std::vector<Label> labels_;
-  std::vector<Move> moves_;         // grouped by the label that they leave
-  std::vector<std::int32_t> into_;  // indices in moves_, grouped by the label that the move enters
-  std::vector<std::int32_t> first_in_;  // index in into_, by label; one more at the end
-  std::vector<LabelId> ends_;           // labels in which some path comes to rest
-  std::vector<LabelId> useful_;         // labels that have a latest time, by decreasing latest time
-  std::vector<LabelId> here_;           // labels of the layer being written
-  std::vector<NodeId> nodes_;           // by label: its node in the layer written last
-  Mdd written_;                         // the MDD written so far; keeps its capacity
-  std::int64_t effort_ = 0;             // labels and nodes of all calls so far
+  Graph graph_;
+  std::vector<LabelId> ends_;    // labels in which some path comes to rest
+  std::vector<LabelId> useful_;  // labels that have a latest time, by decreasing latest time
+  std::vector<LabelId> here_;    // labels of the layer being written
+  std::vector<NodeId> nodes_;    // by label: its node in the layer written last
+  Mdd written_;                  // the MDD written so far; keeps its capacity
+  std::int64_t effort_ = 0;      // labels and nodes of all calls so far
 
   // Data of the current call.
   SequenceStages* goals_ = nullptr;
@@ -142,6 +177,23 @@ std::uint64_t Mdd::hash() const {
   for (NodeId node = 0; node < node_count(); ++node)
     hash = hash_combine(hash, static_cast<std::uint64_t>(state(node)));
   return hash;
+}
+
+bool Mdd::is_connected() const {
+  std::vector<bool> reached(places_.size());
+  for (Time time = 0; time < cost(); ++time) {
+    const Range next = layer(time + 1);
+    for (NodeId node = layer(time).first; node < layer(time).end; ++node) {
+      if (successors(node).empty()) return false;
+      for (const NodeId to : successors(node)) {
+        if (to < next.first || to >= next.end) return false;
+        reached[static_cast<std::size_t>(to)] = true;
+      }
+    }
+  }
+  for (NodeId node = 0; node < layer(0).first; ++node)
+    if (!reached[static_cast<std::size_t>(node)]) return false;
+  return layer(0).end == node_count();
 }
 
 void Mdd::clear() {
@@ -182,7 +234,7 @@ MddBuilder::Outcome MddBuilder::Workspace::build(SequenceStages& goals,
   limits_ = &limits;
   cost_ = cost;
   const Outcome outcome = make_layers(max_nodes, paths);
-  effort_ += std::ssize(labels_) + paths.node_count();
+  effort_ += graph_.label_count() + paths.node_count();
   return outcome;
 }
 
@@ -193,23 +245,25 @@ MddBuilder::Outcome MddBuilder::Workspace::make_layers(std::size_t max_nodes, Md
   if (ends_.empty()) return Outcome::kNone;
   if (count_nodes() > max_nodes) return Outcome::kTooLarge;
   write_layers();
+  GROVE_ASSERT(static_cast<std::size_t>(written_.node_count()) == count_nodes(),
+               "each label has a node at each of its times");
+  GROVE_ASSERT(written_.is_connected(), "every node of an MDD is on a path");
   paths = written_;
   return Outcome::kBuilt;
 }
 
 // Generates all labels that a path of cost cost_ can pass, and the moves between them.
 MddBuilder::Outcome MddBuilder::Workspace::go_forward(std::size_t label_limit) {
-  labels_.clear();
-  moves_.clear();
+  graph_.clear();
   planes_.begin_search(intervals_.slot_count());
   queue_.reset(0);
   start();
   std::int64_t expanded = 0;
   BucketQueue::Entry entry;
   while (queue_.pop(entry) && entry.time < cost_) {
-    if (labels_[entry.slot].earliest != entry.time) continue;
+    if (graph_[entry.slot].earliest != entry.time) continue;
     expand(entry.slot);
-    if (labels_.size() > label_limit) return Outcome::kTooLarge;
+    if (static_cast<std::size_t>(graph_.label_count()) > label_limit) return Outcome::kTooLarge;
     if (++expanded % kExpansionsPerPoll == 0 && limits_->stop_requested()) return Outcome::kStopped;
   }
   return planes_.exhausted() ? Outcome::kStopped : Outcome::kBuilt;
@@ -224,12 +278,13 @@ void MddBuilder::Workspace::start() {
 }
 
 void MddBuilder::Workspace::expand(LabelId from) {
-  const Label label = labels_[from];  // labels_ will grow
-  labels_[from].first_move = static_cast<std::int32_t>(moves_.size());
+  const Label label = graph_[from];  // the graph will grow
+  GROVE_ASSERT(label.first_move == label.end_move, "a label is expanded once");
+  graph_.begin_moves(from);
   intervals_.for_each_move(label.slot, label.earliest, [&](int slot, State state, Time first) {
     goals_->on_arrival(label.stage, state, [&](StageId then) { reach(from, slot, then, first); });
   });
-  labels_[from].end_move = static_cast<std::int32_t>(moves_.size());
+  graph_.end_moves(from);
 }
 
 // Reaches a label from the label `from` by a move that arrives at `first` or later.
@@ -237,17 +292,15 @@ void MddBuilder::Workspace::reach(LabelId from, std::int32_t slot, StageId stage
   Mark* const there = mark(slot, stage);
   if (there == nullptr) return;
   Time last = cost_ - there->distance;
-  if (from != kNoLabel) last = std::min(last, intervals_.last_entry(labels_[from].slot, slot));
+  if (from != kNoLabel) last = std::min(last, intervals_.last_entry(graph_[from].slot, slot));
   if (first > last) return;
-  if (there->label == kNoLabel) {
-    there->label = static_cast<LabelId>(labels_.size());
-    labels_.push_back({.slot = slot, .stage = stage, .earliest = kNever});
-  }
-  if (Label& to = labels_[there->label]; first < to.earliest) {
+  if (there->label == kNoLabel)
+    there->label = graph_.add({.slot = slot, .stage = stage, .earliest = kNever});
+  if (Label& to = graph_[there->label]; first < to.earliest) {
     to.earliest = first;
     queue_.push(first, {.slot = there->label, .time = first});
   }
-  if (from != kNoLabel) moves_.push_back({from, there->label, first, last});
+  if (from != kNoLabel) graph_.add_move({from, there->label, first, last});
 }
 
 // Returns the mark of the pair, nullptr if no memory is available.
@@ -262,20 +315,21 @@ MddBuilder::Workspace::Mark* MddBuilder::Workspace::mark(std::int32_t slot, Stag
 }
 
 void MddBuilder::Workspace::go_backward() {
-  sort_moves();
+  graph_.index_targets();
   queue_.reset(0);
   find_ends();
   useful_.clear();
   BucketQueue::Entry entry;
   while (queue_.pop(entry)) {
-    if (labels_[entry.slot].latest != entry.time) continue;
+    if (graph_[entry.slot].latest != entry.time) continue;
+    GROVE_ASSERT(entry.time >= graph_[entry.slot].earliest && entry.time < cost_,
+                 "a useful label can be reached by its latest time");
     useful_.push_back(entry.slot);
-    for (std::int32_t in = first_in_[entry.slot]; in < first_in_[entry.slot + 1]; ++in)
-      leave_by(moves_[into_[in]], entry.time);
+    graph_.for_each_move_into(entry.slot, [&](const Move& move) { leave_by(move, entry.time); });
   }
 }
 
-void MddBuilder::Workspace::sort_moves() {
+void MddBuilder::Workspace::Graph::index_targets() {
   first_in_.assign(labels_.size() + 1, 0);
   for (const Move& move : moves_) ++first_in_[move.to];
   for (std::size_t label = 1; label < first_in_.size(); ++label)
@@ -283,19 +337,20 @@ void MddBuilder::Workspace::sort_moves() {
   into_.resize(moves_.size());
   for (std::size_t move = 0; move < moves_.size(); ++move)
     into_[--first_in_[moves_[move].to]] = static_cast<std::int32_t>(move);
+  GROVE_ASSERT(std::ranges::is_sorted(first_in_) && first_in_.front() == 0,
+               "each move is in the index once");
 }
 
 void MddBuilder::Workspace::find_ends() {
   ends_.clear();
-  for (LabelId label = 0; label < std::ssize(labels_); ++label) {
-    if (!is_end(labels_[label])) continue;
+  for (LabelId label = 0; label < graph_.label_count(); ++label) {
+    if (!is_end(graph_[label])) continue;
     bool reached = cost_ == 0;
-    for (std::int32_t in = first_in_[label]; in < first_in_[label + 1]; ++in) {
-      const Move& move = moves_[into_[in]];
-      if (last_arrival(move, cost_) != cost_) continue;
+    graph_.for_each_move_into(label, [&](const Move& move) {
+      if (last_arrival(move, cost_) != cost_) return;
       leave_by(move, cost_);
       reached = true;
-    }
+    });
     if (reached) ends_.push_back(label);
   }
 }
@@ -304,7 +359,7 @@ void MddBuilder::Workspace::find_ends() {
 // earlier.
 void MddBuilder::Workspace::leave_by(const Move& move, Time arrival) {
   const Time last = last_arrival(move, arrival);
-  Label& from = labels_[move.from];
+  Label& from = graph_[move.from];
   if (last < move.first || last - 1 <= from.latest) return;
   from.latest = last - 1;
   queue_.push(cost_ - from.latest, {.slot = move.from, .time = from.latest});
@@ -313,7 +368,7 @@ void MddBuilder::Workspace::leave_by(const Move& move, Time arrival) {
 // Returns the last possible arrival of the move, `latest` or earlier; a time before move.first if
 // there is none.
 Time MddBuilder::Workspace::last_arrival(const Move& move, Time latest) const {
-  return intervals_.last_move(labels_[move.from].slot, place(move.to), std::min(latest, move.last));
+  return intervals_.last_move(graph_[move.from].slot, place(move.to), std::min(latest, move.last));
 }
 
 bool MddBuilder::Workspace::is_end(const Label& label) const {
@@ -324,20 +379,20 @@ bool MddBuilder::Workspace::is_end(const Label& label) const {
 std::size_t MddBuilder::Workspace::count_nodes() const {
   std::size_t count = ends_.size();
   for (const LabelId label : useful_)
-    count += static_cast<std::size_t>(labels_[label].latest - labels_[label].earliest + 1);
+    count += static_cast<std::size_t>(graph_[label].latest - graph_[label].earliest + 1);
   return count;
 }
 
 void MddBuilder::Workspace::write_layers() {
   written_.clear();
-  nodes_.assign(labels_.size(), kNoNode);
+  nodes_.assign(static_cast<std::size_t>(graph_.label_count()), kNoNode);
   here_ = ends_;
   write_nodes(cost_);
   here_.clear();
   auto next = useful_.begin();
   for (Time time = cost_ - 1; time >= 0; --time) {
-    std::erase_if(here_, [&](LabelId label) { return labels_[label].earliest > time; });
-    for (; next != useful_.end() && labels_[*next].latest == time; ++next) here_.push_back(*next);
+    std::erase_if(here_, [&](LabelId label) { return graph_[label].earliest > time; });
+    for (; next != useful_.end() && graph_[*next].latest == time; ++next) here_.push_back(*next);
     write_nodes(time);
   }
   written_.first_of_layer_.push_back(written_.node_count());
@@ -352,18 +407,18 @@ void MddBuilder::Workspace::write_nodes(Time time) {
     written_.first_successor_.push_back(static_cast<std::int32_t>(written_.successors_.size()));
     written_.places_.push_back(place(label));
     if (!world_.states_are_places()) written_.states_.push_back(state(label));
-    if (time < cost_) write_successors(labels_[label], time);
+    if (time < cost_) write_successors(label, time);
   }
   for (const LabelId label : here_) nodes_[label] = node++;
 }
 
-void MddBuilder::Workspace::write_successors(const Label& label, Time time) {
+void MddBuilder::Workspace::write_successors(LabelId from, Time time) {
+  const Label& label = graph_[from];
   const Time then = time + 1;
-  if (then <= label.latest) written_.successors_.push_back(nodes_[&label - labels_.data()]);
-  for (std::int32_t i = label.first_move; i < label.end_move; ++i) {
-    const Move& move = moves_[i];
+  if (then <= label.latest) written_.successors_.push_back(nodes_[from]);
+  for (const Move& move : graph_.moves_from(label)) {
     const bool leads_on =
-        then < cost_ ? then <= labels_[move.to].latest : nodes_[move.to] != kNoNode;
+        then < cost_ ? then <= graph_[move.to].latest : nodes_[move.to] != kNoNode;
     if (leads_on && then >= move.first && last_arrival(move, then) == then)
       written_.successors_.push_back(nodes_[move.to]);
   }

@@ -53,6 +53,9 @@ class Mdd {
   friend class MddBuilder;
 
   void clear();  // keeps the capacity
+  // True if every edge leads to the next layer, every node except those of the last layer has a
+  // successor, and every node except those of layer 0 is one.
+  bool is_connected() const;
 
   // Nodes are stored by layer, from the last layer to the first.
   std::vector<NodeId> first_of_layer_;  // and one more entry for the end

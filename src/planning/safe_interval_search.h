@@ -45,6 +45,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "model/assert.h"
 #include "model/limits.h"
 #include "planning/agent_planner.h"
 #include "planning/bucket_queue.h"
@@ -215,6 +216,9 @@ void SafeIntervalSearch<Goals>::reach(const Entry& from, State from_state, std::
   if (known && (l.time < time || (l.time == time && l.conflicts <= from.conflicts))) return;
   const Time layer = goals_.layer(progress, state, time);
   if (layer == kDropped) return;
+  GROVE_ASSERT(
+      layer >= time && time >= intervals_.begin_of(slot) && time <= intervals_.end_of(slot),
+      "a label is in its interval, and its layer is no less than its time");
   const std::uint16_t conflicts =
       others_ && time > 0
           ? conflicts_on_arrival(from, world_.place(from_state), world_.place(state), time)
@@ -248,11 +252,13 @@ void SafeIntervalSearch<Goals>::write_path(Path& path) {
   path.resize(static_cast<std::size_t>(end) + 1);
   while (at.slot != kNoSlot) {
     const Label& l = label(at);
+    GROVE_ASSERT(l.time <= end, "labels along a path are in order of time");
     std::fill(path.begin() + l.time, path.begin() + end + 1, intervals_.state_of(at.slot));
     end = l.time - 1;
     at.slot = l.parent_slot;
     at.progress = l.parent_progress;
   }
+  GROVE_ASSERT(end == -1, "a path begins at time 0");
 }
 
 }  // namespace grove::detail

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 
 SafeIntervals::SafeIntervals(const World& world)
@@ -46,14 +48,15 @@ void SafeIntervals::add_reserved_place(Place place) {
     Place left_for = kNoPlace;
     for (const ReservationTable::Stay& stay : stays) {
       const Time until = stay.first - 1 - margin;
-      if (safe_from <= until)
-        intervals_.push_back({state, safe_from, until, until, kFree, false, left_for});
+      if (safe_from <= until) add({state, safe_from, until, until, kFree, false, left_for});
       safe_from = stay.last + 1 + margin;
       left_for = stay.next;
     }
-    if (safe_from < kNever)
-      intervals_.push_back({state, safe_from, kNever, kNever, kFree, true, left_for});
+    if (safe_from < kNever) add({state, safe_from, kNever, kNever, kFree, true, left_for});
   });
+  GROVE_ASSERT((slot_count() - g.first_slot) % world_.states_on(place) == 0,
+               "the states on a place have equally many slots");
+  GROVE_ASSERT(slot_count() <= slot_limit_, "reserved places have few enough slots");
   g.slots = (slot_count() - g.first_slot) / world_.states_on(place);
   group_of_[place] = static_cast<std::int32_t>(groups_.size());
   groups_.push_back(g);
@@ -175,7 +178,19 @@ void SafeIntervals::group_bars() {
     g.first_move = static_cast<std::int32_t>(i);
     i = end_of_kind(i, place, Bar::Kind::kMove);
     g.end_move = static_cast<std::int32_t>(i);
+    GROVE_ASSERT(g.first_bar < g.end_move, "the bars are in order of their places");
   }
+}
+
+void SafeIntervals::add(const SafeInterval& interval) {
+  GROVE_ASSERT(interval.begin >= 0 && interval.begin <= interval.last_arrival &&
+                   interval.last_arrival <= interval.end,
+               "an interval begins at time 0 or later and is not empty");
+  GROVE_ASSERT(intervals_.empty() || intervals_.back().state != interval.state ||
+                   intervals_.back().copy != interval.copy ||
+                   intervals_.back().last_arrival < interval.begin,
+               "the arrivals in the intervals of a state are disjoint and in order of time");
+  intervals_.push_back(interval);
 }
 
 void SafeIntervals::add_slots(Group& group) {
@@ -188,6 +203,8 @@ void SafeIntervals::add_slots(Group& group) {
     }
     add_intervals(group, state, kFree);
   });
+  GROVE_ASSERT((slot_count() - group.first_slot) % world_.states_on(group.place) == 0,
+               "the states on a place have equally many slots");
   group.slots = (slot_count() - group.first_slot) / world_.states_on(group.place);
 }
 
@@ -197,7 +214,7 @@ void SafeIntervals::add_intervals(const Group& group, State state, std::uint8_t 
     const Bar& bar = bars_[i];
     if (bar.kind != Bar::Kind::kPlace) break;
     if (safe_from < bar.begin)
-      intervals_.push_back({state, safe_from, bar.begin - 1, bar.begin - 1, copy, false, kNoPlace});
+      add({state, safe_from, bar.begin - 1, bar.begin - 1, copy, false, kNoPlace});
     safe_from = std::max(safe_from, std::min(bar.end, kNever) + 1);
   }
   if (safe_from < kNever) add_unending_interval(group, state, safe_from, copy);
@@ -212,7 +229,7 @@ void SafeIntervals::add_unending_interval(const Group& group, State state, Time 
   // Adds the slot for arrivals from `begin` to `last`.
   const auto add = [&](Time last, bool may_rest, bool is_late = false) {
     if (begin > last || begin >= kNever) return;
-    intervals_.push_back({state, begin, kNever, last, copy, may_rest, kNoPlace, is_late});
+    this->add({state, begin, kNever, last, copy, may_rest, kNoPlace, is_late});
     begin = last + 1;
   };
   add(no_rest_by, false);
@@ -233,6 +250,10 @@ SafeIntervals::Range SafeIntervals::slots_of_copy(const Group& group, State stat
       1 + static_cast<int>(used.from_front != kFree) + static_cast<int>(used.from_back != kFree);
   const int each = group.slots / copies;
   const int first = slots(group, state).first + before * each;
+  GROVE_ASSERT(each * copies == group.slots, "the copies of a place have equally many slots");
+  GROVE_ASSERT(each == 0 || (interval(first).copy == copy && interval(first).state == state &&
+                             interval(first + each - 1).copy == copy),
+               "the slots of a copy are contiguous");
   return {first, first + each};
 }
 
@@ -263,6 +284,8 @@ Time SafeIntervals::first_move(int from_slot, Place to, Time earliest) const {
   // One pass suffices, because the bars are in order of their first times.
   for (int i = group.first_move; i < group.end_move; ++i)
     if (bars(bars_[i], from_slot, earliest)) earliest = std::min(bars_[i].end, kNever) + 1;
+  GROVE_ASSERT(earliest > kNever || !is_barred(group, from_slot, earliest),
+               "the first move is not barred");
   return earliest;
 }
 
@@ -273,6 +296,7 @@ Time SafeIntervals::last_move(int from_slot, Place to, Time latest) const {
   // loop.
   for (int i = group.end_move - 1; i >= group.first_move; --i)
     if (bars(bars_[i], from_slot, latest)) latest = bars_[i].begin - 1;
+  GROVE_ASSERT(!is_barred(group, from_slot, latest), "the last move is not barred");
   return latest;
 }
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "model/assert.h"
 #include "planning/constraint.h"
 #include "planning/corridors.h"
 #include "planning/reservation_table.h"
@@ -221,6 +222,8 @@ class SafeIntervals {
   void turn(int slot, State state, Time from_time, State next, Arrive arrive) const {
     const Group& group = groups_[group_of_[world_.place(state)]];
     const int there = slot + slots(group, next).first - slots(group, state).first;
+    GROVE_ASSERT(state_of(there) == next && end_of(there) == end_of(slot),
+                 "the slots of the states on a place are in the same order");
     if (from_time < end_of(slot)) arrive(there, next, from_time + 1);
   }
 
@@ -239,6 +242,8 @@ class SafeIntervals {
         time = first_move(from_slot, to, time);
       else if (time == begin && interval(slot).left_for == from)
         continue;  // swap conflict; a wait on `from` would collide, too
+      GROVE_ASSERT(time > last || (time > from_time && state_of(slot) == state),
+                   "a move takes a step and leads to a slot of its state");
       if (time <= last) arrive(slot, state, time);
     }
   }
@@ -281,6 +286,11 @@ class SafeIntervals {
     return bar.from == place_of(from_slot) && bar.begin <= time && time <= bar.end &&
            (bar.copy == kFree || bar.copy == copy_of(from_slot));
   }
+  bool is_barred(const Group& group, int from_slot, Time time) const {
+    for (int i = group.first_move; i < group.end_move; ++i)
+      if (bars(bars_[i], from_slot, time)) return true;
+    return false;
+  }
   void add_reserved_place(Place place);
   void forget();
   void check(const Constraint& constraint);
@@ -294,6 +304,7 @@ class SafeIntervals {
   Group& group(Place place);
   void group_inner_places();
   void group_bars();
+  void add(const SafeInterval& interval);
   void add_slots(Group& group);
   void add_intervals(const Group& group, State state, std::uint8_t copy);
   void add_unending_interval(const Group& group, State state, Time begin, std::uint8_t copy);

@@ -58,6 +58,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/assert.h"
 #include "sequencing/cost_matrix.h"
 #include "sequencing/direct_legs.h"
 
@@ -81,6 +82,29 @@ StopSet checked_set(const Sequence& prefix, StopSet all) {
 
 }  // namespace
 
+PortDistances::PortDistances(const Instance& instance, const DistanceFields& distances,
+                             AgentIndex agent, int per_stop)
+    : per_stop_(per_stop) {
+  const World& world = instance.world();
+  const Agent& who = instance.agent(agent);
+  const std::size_t ports = who.stops.size() * static_cast<std::size_t>(per_stop);
+  longest_legs_.resize(ports * ports);
+  for (std::size_t port = 0; port < ports; ++port) {
+    const TaskIndex stop = who.stops[port / static_cast<std::size_t>(per_stop)];
+    const DistanceView field =
+        per_stop == 1 ? distances.to_task(stop)
+                      : distances.to_port(stop, who.kind, static_cast<int>(port) % per_stop);
+    to_port_.push_back(field);
+    for (std::size_t from = 0; from < ports; ++from) {
+      const Place here = instance.task(who.stops[from / static_cast<std::size_t>(per_stop)]).cell;
+      longest_legs_[from * ports + port] =
+          per_stop == 1
+              ? max_distance_from(world, here, who.kind, field)
+              : field[world.bases(here, who.kind).first + static_cast<int>(from) % per_stop];
+    }
+  }
+}
+
 AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent)
     : instance_(&instance),
       world_(&instance.world()),
@@ -88,15 +112,13 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
       kind_(instance.agent(agent).kind),
       turn_steps_(instance.agent(agent).motion.turn_steps),
       start_(instance.agent(agent).start),
-      start_place_(instance.world().place(start_)),
       destination_(instance.agent(agent).goal),
       cost_to_go_(port_matrix(instance, agent, distances),
                   distances.array(ArrayKind::kSequenceTable, static_cast<std::size_t>(agent)),
                   [&instance, &distances, agent] {
                     return direct_legs(instance, agent, port_matrix(instance, agent, distances));
-                  }) {
-  ports_ = cost_to_go_.matrix().ports;
-  const World& world = instance.world();
+                  }),
+      ports_(instance, distances, agent, cost_to_go_.matrix().ports) {
   const Agent& who = instance.agent(agent);
   for (std::size_t stop = 0; stop < who.stops.size(); ++stop) {
     const Task& task = instance.task(who.stops[stop]);
@@ -104,25 +126,10 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
     durations_.push_back(task.duration);
     if (task.duration > 0) work_stops_ |= bit(static_cast<int>(stop));
   }
+  GROVE_CHECK(ports_.count() == count() * ports(), "each stop has its ports");
   stop_at_ = stops_of_states(
       instance, distances.array(ArrayKind::kStopsOfStates, static_cast<std::size_t>(agent)));
   if (!instance.rests_on_last_stop(agent)) to_rest_ = distances.to_rest(agent);
-
-  const std::size_t ports = port_count();
-  longest_legs_.resize(ports * ports);
-  for (std::size_t port = 0; port < ports; ++port) {
-    const auto stop = port / static_cast<std::size_t>(ports_);
-    const DistanceView field =
-        ports_ == 1 ? distances.to_task(who.stops[stop])
-                    : distances.to_port(who.stops[stop], who.kind, static_cast<int>(port) % ports_);
-    to_port_.push_back(field);
-    for (std::size_t from = 0; from < ports; ++from) {
-      const Place here = places_[from / static_cast<std::size_t>(ports_)];
-      longest_legs_[from * ports + port] =
-          ports_ == 1 ? max_distance_from(world, here, who.kind, field)
-                      : field[world.bases(here, who.kind).first + static_cast<int>(from) % ports_];
-    }
-  }
 }
 
 std::shared_ptr<const std::int8_t[]> AgentStops::stops_of_states(const Instance& instance,
@@ -163,9 +170,9 @@ Time AgentStops::longest_finish(Place place) const {
 Time AgentStops::turn(State state, int port) const {
   const State base = world_->base(state);
   const int heading = base - world_->bases(world_->place(base), kind_).first;
-  if (ports_ == 1 || heading >= ports_) return world_->max_turn_time(kind_);
-  const int quarters = std::abs(heading - port % ports_);
-  return std::min(quarters, ports_ - quarters) * turn_steps_;
+  if (ports() == 1 || heading >= ports()) return world_->max_turn_time(kind_);
+  const int quarters = std::abs(heading - port % ports());
+  return std::min(quarters, ports() - quarters) * turn_steps_;
 }
 
 SequenceStages::SequenceStages(AgentStops& stops, SequenceClass sequence_class)
@@ -266,6 +273,8 @@ SequenceStages::StageId SequenceStages::make_stage(StopSet left, StopSet rests) 
     return static_cast<StageId>(known);
 
   Stage stage{.left = left, .next = next_of(left), .rests = rests};
+  GROVE_ASSERT((left & ~free_) == 0 || (free_ & ~left) == 0,
+               "stops are counted in the order of the prefix");
   stage.may_skip = rest_is_not_first_ && left == free_ && std::popcount(first_free_) > 1;
   add_onward(stage);
   if (left != 0 && stage.count == 0) return kOutside;
@@ -300,6 +309,7 @@ void SequenceStages::add_onward(Stage& stage) {
   stage.nearest = static_cast<std::int32_t>(sorted.size());
   std::remove_copy_if(ways, onward_.end(), std::back_inserter(sorted), needed);
   std::ranges::copy(sorted, ways);
+  GROVE_ASSERT(stage.nearest > 0 || stage.count == 0, "some onward port determines the distance");
 }
 
 Sequence realized_sequence(const SequenceStages& goals, const Path& path) {

@@ -21,6 +21,37 @@
 
 namespace grove::detail {
 
+// Distances of one agent to the ports of its stops (sequencing/cost_matrix.h). Port p is one of the
+// ports of stop p / per_stop(). Immutable: any thread may read it.
+class PortDistances {
+ public:
+  // `per_stop`: the number of ports of each stop. `distances` must outlive this object.
+  PortDistances(const Instance& instance, const DistanceFields& distances, AgentIndex agent,
+                int per_stop);
+
+  int per_stop() const { return per_stop_; }
+  int count() const { return static_cast<int>(to_port_.size()); }
+  // Distance from a state to a port.
+  Time to_port(State state, int port) const { return to_port_[port][state]; }
+  // Distance from a state to a stop: the minimum over the ports of the stop.
+  Time to_stop(State state, int stop) const {
+    Time least = to_port(state, stop * per_stop_);
+    for (int port = 1; port < per_stop_; ++port)
+      least = std::min(least, to_port(state, stop * per_stop_ + port));
+    return least;
+  }
+  // Upper bound on the distance from port `from` to port `to`. With one port per stop it is the
+  // maximum over the base states on the first stop.
+  Time longest_leg(int from, int to) const {
+    return longest_legs_[static_cast<std::size_t>(from) * to_port_.size() + to];
+  }
+
+ private:
+  int per_stop_;
+  std::vector<DistanceView> to_port_;
+  std::vector<Time> longest_legs_;  // by first port, then second port
+};
+
 // Stops of one agent, with all data that does not depend on the sequence class. All SequenceStages
 // of the agent share it. Copies share the immutable data, and different threads may use different
 // copies.
@@ -36,7 +67,7 @@ class AgentStops {
   AgentIndex agent() const { return agent_; }
   int count() const { return static_cast<int>(places_.size()); }
   State start() const { return start_; }
-  Place start_place() const { return start_place_; }
+  Place start_place() const { return world_->place(start_); }
   std::optional<Place> destination() const { return destination_; }
   Place place(int stop) const { return places_[stop]; }
   // The stop that the agent visits in this state: the state is on the place of the stop and, if the
@@ -58,24 +89,15 @@ class AgentStops {
   Time longest_finish(Place place) const;
 
   // Number of ports of each stop (CostMatrix). If it is 1, port s is the port of stop s.
-  int ports() const { return ports_; }
-  // Distance from a state to a port.
-  Time to_port(State state, int port) const { return to_port_[port][state]; }
-  // Distance from a state to a stop: the minimum over the ports of the stop.
-  Time distance(State state, int stop) const {
-    Time least = to_port(state, stop * ports_);
-    for (int port = 1; port < ports_; ++port)
-      least = std::min(least, to_port(state, stop * ports_ + port));
-    return least;
-  }
+  int ports() const { return ports_.per_stop(); }
+  // Distance from a state to a port, or to a stop.
+  Time to_port(State state, int port) const { return ports_.to_port(state, port); }
+  Time distance(State state, int stop) const { return ports_.to_stop(state, stop); }
   // Distance from a state to the nearest state in which the agent may rest. Requires
   // !rests_on_last_stop().
   Time to_rest(State state) const { return to_rest_[state]; }
-  // Upper bound on the distance from port `from` to port `to`. With one port per stop it is the
-  // maximum over the base states on the first stop.
-  Time longest_leg(int from, int to) const {
-    return longest_legs_[static_cast<std::size_t>(from) * port_count() + to];
-  }
+  // Upper bound on the distance from port `from` to port `to`; see PortDistances.
+  Time longest_leg(int from, int to) const { return ports_.longest_leg(from, to); }
   // Upper bound on the turning time, in steps, from a state on a stop to the state in which the
   // agent leaves by `port` of this stop: the state with the heading of the port or, with one port
   // per stop, any base state.
@@ -86,7 +108,6 @@ class AgentStops {
   CostToGo& cost_to_go() { return cost_to_go_; }
 
  private:
-  std::size_t port_count() const { return places_.size() * static_cast<std::size_t>(ports_); }
   std::shared_ptr<const std::int8_t[]> stops_of_states(const Instance& instance,
                                                        SharedArray shared) const;
 
@@ -101,17 +122,14 @@ class AgentStops {
   int kind_;
   Time turn_steps_;
   State start_;
-  Place start_place_;
   std::optional<Place> destination_;
   std::vector<Place> places_;
   std::vector<Time> durations_;  // by stop
   StopSet work_stops_ = 0;
   std::shared_ptr<const std::int8_t[]> stop_at_;  // by state; owns nothing if the array is shared
-  std::vector<DistanceView> to_port_;
-  std::vector<Time> longest_legs_;  // by first port, then second port
-  int ports_ = 1;
   DistanceView to_rest_;
   CostToGo cost_to_go_;
+  PortDistances ports_;
 };
 
 // Stages of one agent under one sequence class, numbered in the order of their creation. A stage is

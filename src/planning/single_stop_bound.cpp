@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "model/assert.h"
 #include "sequencing/cost_matrix.h"
 
 namespace grove::detail {
@@ -15,8 +16,11 @@ namespace grove::detail {
 Time SingleStopBound::min_cost(const AgentStops& stops, Time known_bound, const Limits& limits) {
   stops_ = &stops;
   bound_ = known_bound;
-  for (int stop = 0; stop < stops.count() && !limits.stop_requested(); ++stop)
-    bound_ = min_cost_through(stop);
+  for (int stop = 0; stop < stops.count() && !limits.stop_requested(); ++stop) {
+    const Time bound = min_cost_through(stop);
+    GROVE_ASSERT(bound >= bound_, "a further stop never lowers the bound");
+    bound_ = bound;
+  }
   return bound_;
 }
 

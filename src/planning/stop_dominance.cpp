@@ -35,6 +35,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 
 void StopDominance::begin_search() {
@@ -48,6 +50,8 @@ void StopDominance::close(const SequenceStages& goals, StageId from, State state
                           Time until) {
   const AgentStops& stops = goals.stops();
   const int stop = stops.stop_at(state);
+  GROVE_ASSERT(stop >= 0 && (goals.stage(from).left >> stop & 1) != 0,
+               "a gate is on a stop that was left before");
   const auto ways = goals.onward(goals.stage(from));
   const auto of_stop = [&](const SequenceStages::Onward& way) {
     return way.port / stops.ports() == stop;
@@ -70,6 +74,7 @@ void StopDominance::close(const SequenceStages& goals, StageId from, State state
 
 Time StopDominance::min_cost(const SequenceStages& goals, StageId stage, State state,
                              Time time) const {
+  GROVE_ASSERT(any(stage), "the stage has a gate");
   const Gate* gate = &gates_[static_cast<std::size_t>(by_stage_[stage])];
   Time least = kNever;
   for (const SequenceStages::Onward& way : goals.onward(goals.stage(stage))) {

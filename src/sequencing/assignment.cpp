@@ -42,6 +42,8 @@ class Assignment {
   }
 
   std::vector<int> columns_of_rows() const {
+    GROVE_CHECK(columns_ - std::ranges::count(row_of_, kNone) == std::ssize(cost_),
+                "each row has one column");
     std::vector<int> result(cost_.size());
     for (int column = 0; column < columns_; ++column)
       if (row_of_[column] != kNone) result[row_of_[column]] = column;
@@ -54,6 +56,8 @@ class Assignment {
       if (done_[column] || cost_[from][column] == kForbidden) continue;
       const std::int64_t through =
           reached + cost_[from][column] - row_dual_[from] - column_dual_[column];
+      GROVE_ASSERT(via == kNone || through >= reached,
+                   "the reduced costs of assigned rows are not negative");
       if (through >= distance_[column]) continue;
       distance_[column] = through;
       before_[column] = via;

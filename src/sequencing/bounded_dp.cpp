@@ -28,6 +28,7 @@
 // to 120 ms, with graphs of at most 2,800 states.
 #include <optional>
 
+#include "model/assert.h"
 #include "sequencing/one_tree_relaxation.h"
 #include "sequencing/passed_stops.h"
 #include "sequencing/rtsp.h"
@@ -58,6 +59,7 @@ class BoundedDp : public RtspSolver {
     while (true) {
       const Time value = best_cost(matrix_, root, cost_to_go());
       const Time bound = std::max(relaxed, dag_.outside_bound());
+      GROVE_CHECK(value >= relaxed, "no sequence costs less than the relaxation");
       if (value <= bound) return {value < kNever ? Kind::kExact : Kind::kInfeasible, value};
       if (bound > cutoff) return {Kind::kAboveCutoff, bound};
       if (!extend()) return {Kind::kStopped, bound};
@@ -110,6 +112,8 @@ class BoundedDp : public RtspSolver {
     return end == End::kBuilt;
   }
   End build(const SequenceDag::Scope& scope) {
+    GROVE_CHECK(dag_.next_cost_limit() >= dag_.outside_bound(),
+                "the next graph holds a sequence that is outside the graph");
     return SequenceDag::build(scope, dag_.next_cost_limit(), limits_, dag_);
   }
 

@@ -156,6 +156,8 @@ class CostToGo::Ordered : public Store {
       later_[*stop] = later;
       later |= bit(*stop);
     }
+    GROVE_CHECK(later == this->matrix().all() && std::ssize(order_) == this->matrix().stops(),
+                "an order holds each stop once");
   }
 
   Time relaxed_bound() const override { return 0; }
@@ -257,6 +259,7 @@ Time CostToGo::outside_bound() const {
 }
 
 Time CostToGo::cost_to_go(StopSet left, int port) const {
+  GROVE_ASSERT((left & bit(port / matrix().ports)) == 0, "the stop of a port is not left");
   return store_->cost_to_go(left, port);
 }
 
@@ -270,6 +273,7 @@ bool CostToGo::extend(Time cost_limit, const Limits& limits) {
   if (known != extended_.end()) {
     std::rotate(extended_.begin(), known, known + 1);
     store_ = extended_.front().to;
+    GROVE_CHECK(outside_bound() > cost_limit, "an extension that is known covers the cost limit");
     return true;
   }
   auto extended = store_->extended(cost_limit, limits);
@@ -277,6 +281,8 @@ bool CostToGo::extend(Time cost_limit, const Limits& limits) {
     if (!limits.stop_requested()) refused_ = cost_limit;
     return false;
   }
+  GROVE_CHECK(extended->outside_bound() > cost_limit, "an extension covers the cost limit");
+  GROVE_CHECK(&extended->matrix() == &store_->matrix(), "an extension is over the same costs");
   if (resets_) {
     if (extended_.size() == kMaxExtensions) extended_.pop_back();
     extended_.insert(extended_.begin(), {store_, cost_limit, extended});

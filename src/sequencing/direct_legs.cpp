@@ -14,6 +14,7 @@
 
 #include <algorithm>
 
+#include "model/assert.h"
 #include "sequencing/sequence.h"
 
 namespace grove::detail {
@@ -108,9 +109,12 @@ DirectLegs::DirectLegs(CostMatrix direct, const CostMatrix& matrix)
     : direct_(std::move(direct)), hops_(static_cast<std::size_t>(matrix.stops() * matrix.ports)) {
   const int ports = matrix.stops() * matrix.ports;
   for (int from = 0; from <= ports; ++from)
-    for (int to = 0; to < ports; ++to)
+    for (int to = 0; to < ports; ++to) {
+      GROVE_ASSERT(leg(from, to) >= matrix.between(from, to),
+                   "a direct leg costs no less than a leg");
       if (leg(from, to) < kNever && (leg(from, to) ^ matrix.between(from, to)) & 1)
         keeps_parity_ = false;
+    }
   for (int from = 0; from < ports; ++from)
     for (int by = 0; by < ports; ++by) {
       if (by == from || leg(from, by) >= kNever) continue;

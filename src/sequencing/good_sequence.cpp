@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "model/assert.h"
 #include "sequencing/cost_matrix.h"
 
 namespace grove::detail {
@@ -20,6 +21,10 @@ class LocalSearch {
     insert_all();
     while (improve_by_or_opt() || improve_by_2_opt()) {
     }
+    StopSet visited = 0;
+    for (const Stop stop : sequence_) visited |= bit(stop);
+    GROVE_CHECK(visited == matrix_.all() && std::ssize(sequence_) == matrix_.stops(),
+                "a good sequence holds each stop once");
     return sequence_;
   }
 

@@ -16,6 +16,7 @@
 // of a sequence fits, entries have 16 bits: one SSE2 instruction then processes eight stops, and
 // the table takes half the memory. Rows have no padding. Each row is written at full vector width,
 // and the next row overwrites the excess, because S ascends.
+#include "model/assert.h"
 #include "sequencing/held_karp_table.h"
 #include "sequencing/rtsp.h"
 #include "sequencing/sequence_class.h"
@@ -33,6 +34,7 @@ class HeldKarp : public RtspSolver {
     if (!table_.built() && !table_.build(matrix_, limits_))
       return {RtspAnswer::Kind::kStopped, root_bound_};
     const Time cost = best_cost(matrix_, class_root(matrix_, sequence_class), cost_to_go());
+    GROVE_CHECK(cost >= root_bound_, "no sequence costs less than the relaxation");
     if (cost >= kNever) return {RtspAnswer::Kind::kInfeasible, kNever};
     return {RtspAnswer::Kind::kExact, cost};
   }

@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/assert.h"
 #include "sequencing/cost_matrix.h"
 #include "sequencing/keyed_stacks.h"
 
@@ -114,11 +115,24 @@ class KBestJointSequences::Queue {
   }
 
   JointSequence return_next(const Entry& entry, Cost cost) {
+    GROVE_CHECK(cost >= returned_.back().cost,
+                "joint sequences are returned in ascending order of cost");
     const auto index = static_cast<std::uint32_t>(returned_.size());
     returned_.push_back({cost, entry});
     add({entry.base, entry.agent, entry.rank + 1});
+    GROVE_ASSERT(cost_of(ranks(index)) == cost,
+                 "the cost of a joint sequence is the sum of its sequences' costs");
+    GROVE_ASSERT(entry.rank > 0 && ranks(entry.base)[entry.agent] == 0,
+                 "a joint sequence is the child of one other");
     add_children(index, entry.agent + 1);
     return {cost, ranks(index)};
+  }
+
+  Cost cost_of(const std::vector<std::uint32_t>& ranks) const {
+    Cost sum = 0;
+    for (std::size_t agent = 0; agent < ranks.size(); ++agent)
+      sum += agents_[agent].cost_bound(ranks[agent]);
+    return sum;
   }
 
   // Index 0 is the zero vector; every chain of bases ends there.

@@ -48,8 +48,10 @@ class KBestSequences::Partition {
   }
 
   Time resolve(std::size_t rank, Time cutoff) {
+    const Time before = cost_bound(rank);
     while (!known(rank) && !queue_.empty() && queue_.top_key().first <= cutoff)
       if (limits_.stop_requested() || !advance()) break;
+    GROVE_CHECK(cost_bound(rank) >= before, "the bound on the cost of a rank never falls");
     return cost_bound(rank);
   }
 
@@ -80,7 +82,15 @@ class KBestSequences::Partition {
     const Entry entry = queue_.pop();
     load(entry);
     if (knowledge == kExact) {
+      GROVE_CHECK(found_.empty() || found_.back().cost <= bound,
+                  "sequences are found in ascending order of cost");
       found_.push_back({bound, solver_->best_sequence(class_)});
+      GROVE_ASSERT(is_member(found_.back().sequence, class_),
+                   "a sequence is found in a class that contains it");
+      GROVE_ASSERT(sequence_cost(matrix_, found_.back().sequence) >= bound,
+                   "no sequence costs less than the bound of its class");
+      GROVE_ASSERT(std::ranges::count(found_, found_.back().sequence, &Found::sequence) == 1,
+                   "each sequence is found once");
       branch(entry, bound);
       return true;
     }
@@ -90,6 +100,14 @@ class KBestSequences::Partition {
     if (answer.kind != RtspAnswer::Kind::kInfeasible)
       queue_.push({std::max(bound, answer.cost), exact ? kExact : kBounded}, entry);
     return answer.kind != RtspAnswer::Kind::kStopped;
+  }
+
+  bool is_member(const Sequence& sequence, const SequenceClass& sequence_class) const {
+    const Sequence& prefix = sequence_class.prefix;
+    return std::ssize(sequence) == matrix_.stops() && prefix.size() <= sequence.size() &&
+           std::equal(prefix.begin(), prefix.end(), sequence.begin()) &&
+           (prefix.size() == sequence.size() ||
+            (sequence_class.forbidden_next & bit(sequence[prefix.size()])) == 0);
   }
 
   // Loads the class of an entry into class_, which keeps its memory.

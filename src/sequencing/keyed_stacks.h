@@ -5,6 +5,8 @@
 #include <map>
 #include <vector>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 
 // pop() removes an entry of the least key; among several, the one pushed last. One thread at a
@@ -18,6 +20,7 @@ class KeyedStacks {
   void push(const Key& key, const Entry& entry) { stacks_[key].push_back(entry); }
 
   Entry pop() {
+    GROVE_ASSERT(!empty() && !stacks_.begin()->second.empty(), "each key has an entry");
     const auto top = stacks_.begin();
     const Entry entry = top->second.back();
     top->second.pop_back();

@@ -48,6 +48,7 @@
 #include <array>
 #include <cmath>
 
+#include "model/assert.h"
 #include "sequencing/cost_matrix.h"
 #include "sequencing/rtsp.h"
 
@@ -164,6 +165,9 @@ OneTreeRelaxation::Tree OneTreeRelaxation::tree(StopSet left) const {
     int next = in_tree;
     for (int i = in_tree + 1; i < tree.size; ++i)
       if (edge[i] < edge[next]) next = i;
+    GROVE_ASSERT(std::ranges::count(tree.stops.begin(), tree.stops.begin() + in_tree,
+                                    tree.joined[next]) == 1,
+                 "a stop joins a stop of the tree");
     tree.weight += edge[next];
     std::swap(tree.stops[next], tree.stops[in_tree]);
     std::swap(tree.joined[next], tree.joined[in_tree]);
@@ -310,6 +314,8 @@ void OneTreeRelaxation::ascend() {
   shift_ = best_shift;
   shift_legs();
   update_weights();
+  GROVE_ASSERT(best >= kSurelyNoWay || bound_and_excess(excess) == best,
+               "the stored potentials give the stored bound");
   root_bound_ = to_cost(best);
 }
 

@@ -65,6 +65,7 @@
 
 #include <array>
 #include <bit>
+#include <span>
 
 #include "model/assert.h"
 #include "sequencing/cost_matrix.h"
@@ -77,8 +78,115 @@ namespace grove::detail {
 namespace {
 
 constexpr std::size_t kPollInterval = 32;  // nodes; each takes a few microseconds
-constexpr std::size_t kCountedExcess =
-    4096;  // drop() counts only costs at most this much above `cost_limit`
+
+// Costs above a cost limit.
+class DroppedCosts {
+ public:
+  explicit DroppedCosts(Time limit) : limit_(limit) {}
+
+  void add(Time cost) {
+    GROVE_ASSERT(cost > limit_, "only states above the cost limit are dropped");
+    least_ = std::min(least_, cost);
+    const auto excess = static_cast<std::size_t>(cost - limit_ - 1);
+    if (excess >= kCountedExcess) return;
+    if (excess >= by_excess_.size()) by_excess_.resize(excess + 1, 0);
+    ++by_excess_[excess];
+  }
+  // The least cost; kNever if there is none.
+  Time least() const { return least_; }
+  // Returns the least limit, at least least(), up to which there are `count` costs; if there are
+  // fewer, a limit that admits all that were counted.
+  Time limit_of(std::size_t count) const {
+    std::size_t admitted = 0;
+    for (std::size_t excess = 0; excess < by_excess_.size(); ++excess)
+      if ((admitted += by_excess_[excess]) >= count)
+        return std::max(least_, limit_ + 1 + static_cast<Time>(excess));
+    return std::max(least_, limit_ + static_cast<Time>(by_excess_.size()));
+  }
+
+ private:
+  static constexpr std::size_t kCountedExcess = 4096;  // greater costs only count for least()
+
+  const Time limit_;
+  Time least_ = kNever;
+  std::vector<std::size_t> by_excess_;  // number of costs, by cost - limit_ - 1
+};
+
+// Least costs by direct legs, from or to the ports of the visited stops of a node.
+template <int kPorts>
+class Walks {
+ public:
+  using PortCosts = std::array<Time, kPorts>;
+
+  // `direct`: the legs; may be nullptr, and then only is_used() may be called.
+  explicit Walks(const DirectLegs* direct) : direct_(direct) {}
+  bool is_used() const { return direct_ != nullptr; }
+
+  // Starts forward walks.
+  void clear() {
+    costs_.fill(kNever);
+    reached_.clear();
+  }
+  // A walk starts at, or reaches, `port` at this cost.
+  void reach(int port, Time cost) {
+    if (cost >= costs_[port]) return;
+    costs_[port] = cost;
+    reached_.push_back(port);
+  }
+  // Continues all walks over visited stops, i.e. without visiting a stop of `left`.
+  void extend(StopSet left) {
+    for (std::size_t next = 0; next < reached_.size(); ++next)
+      for (const int by : direct_->hops(reached_[next]))
+        if ((left & bit(by / kPorts)) == 0)
+          reach(by, add_costs(costs_[reached_[next]], direct_->leg(reached_[next], by)));
+  }
+  // The least costs of walking on to the ports of stop `next`.
+  PortCosts costs_to(int next) const {
+    PortCosts costs;
+    costs.fill(kNever);
+    for (const int from : reached_)
+      for (int to = 0; to < kPorts; ++to)
+        costs[to] =
+            std::min(costs[to], add_costs(costs_[from], direct_->leg(from, next * kPorts + to)));
+    return costs;
+  }
+
+  // Computes the costs to go from each port of the stops in `visited`, by iteration to a fixed
+  // point. `onward`: the costs to go from each port of the stops in `left`.
+  void compute_costs_to_go(StopSet visited, StopSet left, std::span<const Time> onward) {
+    costs_.fill(kNever);
+    const auto for_each_visited = [&](auto visit) {
+      for_each_stop(visited, [&](int stop) {
+        for (int port = stop * kPorts; port < (stop + 1) * kPorts; ++port) visit(port);
+      });
+    };
+    for_each_visited([&](int from) {
+      for_each_stop(left, [&](int next) {
+        for (int to = next * kPorts; to < (next + 1) * kPorts; ++to)
+          costs_[from] = std::min(costs_[from], add_costs(direct_->leg(from, to), onward[to]));
+      });
+    });
+    for (bool changed = true; changed;) {
+      changed = false;
+      for_each_visited([&](int from) {
+        for (const int by : direct_->hops(from)) {
+          if ((left & bit(by / kPorts)) != 0) continue;
+          const Time cost = add_costs(direct_->leg(from, by), costs_[by]);
+          if (cost >= costs_[from]) continue;
+          costs_[from] = cost;
+          changed = true;
+        }
+      });
+    }
+  }
+  // The costs to go from the ports of a visited stop.
+  const Time* costs_from(int stop) const { return &costs_[stop * kPorts]; }
+
+ private:
+  const DirectLegs* const direct_;
+  std::array<Time, kMaxTasksPerAgent * kPorts> costs_;  // by port of a visited stop
+  std::vector<int> reached_;  // ports with a cost of a forward walk, possibly with duplicates
+};
 
 }  // namespace
 
@@ -96,16 +204,15 @@ template <int kPorts>
 class SequenceDagBuilder {
  public:
   SequenceDagBuilder(const SequenceDag::Scope& scope, Time cost_limit, const Limits& limits)
-      : matrix_(scope.matrix),
-        relaxation_(scope.relaxation),
-        direct_(scope.direct),
-        passed_(scope.passed),
-        sequence_class_(scope.sequence_class),
-        max_states_(scope.max_states),
+      : scope_(scope),
         cost_limit_(cost_limit),
         limits_(limits),
         pair_costs_(pair_costs(scope.matrix, scope.direct)),
-        parity_(direct_ == nullptr || direct_->keeps_parity() ? common_parity(matrix_) : -1) {
+        parity_(scope.direct == nullptr || scope.direct->keeps_parity()
+                    ? common_parity(scope.matrix)
+                    : -1),
+        dropped_(cost_limit),
+        walks_(scope.direct) {
     dag_.ports_ = kPorts;
   }
 
@@ -120,7 +227,11 @@ class SequenceDagBuilder {
       layer = end;
     }
     if (!compute_cost_to_go()) return SequenceDag::End::kStopped;
-    dag_.next_cost_limit_ = next_cost_limit();
+    dag_.outside_bound_ = dropped_.least();
+    GROVE_CHECK(dag_.outside_bound_ > cost_limit_,
+                "the graph holds all sequences within the cost limit");
+    // The successors of the newly admitted states add about as many again.
+    dag_.next_cost_limit_ = dropped_.limit_of(dag_.cost_to_go_.size() / 2);
     dag = std::move(dag_);
     return SequenceDag::End::kBuilt;
   }
@@ -138,6 +249,21 @@ class SequenceDagBuilder {
     PortCosts costs;
     Stop stop;
   };
+  // The layer under construction.
+  struct Layer {
+    std::vector<Group> groups;
+    std::vector<State> states;
+    StopSetIndex index;  // into groups
+
+    std::size_t bytes() const {
+      return groups.capacity() * sizeof(Group) + states.capacity() * sizeof(State) + index.bytes();
+    }
+    void clear() {
+      groups.clear();
+      states.clear();
+      index = {};
+    }
+  };
 
   // Adds the states in which the first free stop after the prefix has just been visited; for a
   // complete prefix, the state at its end. Returns the number of free stops.
@@ -153,18 +279,18 @@ class SequenceDagBuilder {
         for (int from = 0; from < kPorts; ++from)
           costs[to] = std::min(
               costs[to],
-              add_costs(at_last[from], last == kStart ? matrix_.from_start(stop * kPorts + to)
-                                                      : matrix_.between(last * kPorts + from,
-                                                                        stop * kPorts + to)));
+              add_costs(at_last[from], last == kStart ? scope_.matrix.from_start(stop * kPorts + to)
+                                                      : scope_.matrix.between(last * kPorts + from,
+                                                                              stop * kPorts + to)));
       return costs;
     };
-    StopSet left = matrix_.all();
-    for (const Stop stop : sequence_class_.prefix) {
+    StopSet left = scope_.matrix.all();
+    for (const Stop stop : scope_.sequence_class.prefix) {
       at_last = costs_at(stop);
       last = stop;
       left &= ~bit(stop);
     }
-    for_each_stop(left & ~sequence_class_.forbidden_next,
+    for_each_stop(left & ~scope_.sequence_class.forbidden_next,
                   [&](int stop) { reach_state(left & ~bit(stop), stop, costs_at(stop)); });
     if (left == 0 && last != kStart) {
       reach_state(0, last, at_last);
@@ -180,25 +306,29 @@ class SequenceDagBuilder {
   void reach_state(StopSet left, int stop, PortCosts costs) {
     if (least(costs) >= kNever) return;
     const std::uint32_t number =
-        group_index_.insert(left, static_cast<std::uint32_t>(groups_.size()));
-    if (number == groups_.size()) {
-      groups_.push_back({{left, 0, 0}, {}});
-      if (left != 0) groups_.back().tail = relaxation_.tail(left);
+        layer_.index.insert(left, static_cast<std::uint32_t>(layer_.groups.size()));
+    if (number == layer_.groups.size()) {
+      layer_.groups.push_back({{left, 0, 0}, {}});
+      if (left != 0) layer_.groups.back().tail = scope_.relaxation.tail(left);
     }
-    Group& group = groups_[number];
+    Group& group = layer_.groups[number];
     for (int i = 0; i < kPorts; ++i) {
       const int port = stop * kPorts + i;
       const Time rest =
-          left == 0 ? matrix_.to_end(port) : relaxation_.bound(group.tail, left, port);
+          left == 0 ? scope_.matrix.to_end(port) : scope_.relaxation.bound(group.tail, left, port);
       const Time whole = round_up(add_costs(costs[i], rest));
+      GROVE_ASSERT(left != 0 || whole == add_costs(costs[i], rest),
+                   "the costs of complete sequences have a common parity");
       if (whole <= cost_limit_) continue;
-      drop(whole);
+      dropped_.add(whole);
       costs[i] = kNever;
     }
-    if (direct_ != nullptr && left != 0) drop_by_pairs(left, stop, costs);
+    if (walks_.is_used() && left != 0) drop_by_pairs(left, stop, costs);
     if (least(costs) >= kNever) return;
+    GROVE_ASSERT((left & bit(stop)) == 0 && (group.node.at & bit(stop)) == 0,
+                 "a state is reached once, with its own stop visited");
     group.node.at |= bit(stop);
-    states_.push_back({number, costs, static_cast<Stop>(stop)});
+    layer_.states.push_back({number, costs, static_cast<Stop>(stop)});
   }
 
   void drop_by_pairs(StopSet left, int stop, PortCosts& costs) {
@@ -206,7 +336,7 @@ class SequenceDagBuilder {
     for (Time& cost : costs) {
       const Time whole = round_up(add_costs(cost, rest));
       if (cost >= kNever || whole <= cost_limit_) continue;
-      drop(whole);
+      dropped_.add(whole);
       cost = kNever;
     }
   }
@@ -216,11 +346,11 @@ class SequenceDagBuilder {
     Time bound = 0;
     for_each_stop(left, [&](int one) {
       const Time to_one = pair_costs_.cost(from, one);
-      const Time from_one = pair_costs_.cost(one, matrix_.stops());
+      const Time from_one = pair_costs_.cost(one, scope_.matrix.stops());
       bound = std::max(bound, add_costs(to_one, from_one));
       for_each_stop(left & ~(bit(one) | (bit(one) - 1)), [&](int two) {
         const Time one_first = add_costs(add_costs(to_one, pair_costs_.cost(one, two)),
-                                         pair_costs_.cost(two, matrix_.stops()));
+                                         pair_costs_.cost(two, scope_.matrix.stops()));
         const Time two_first =
             add_costs(add_costs(pair_costs_.cost(from, two), pair_costs_.cost(two, one)), from_one);
         bound = std::max(bound, std::min(one_first, two_first));
@@ -238,25 +368,6 @@ class SequenceDagBuilder {
     return min_matrix(any);
   }
 
-  void drop(Time whole) {
-    dag_.outside_bound_ = std::min(dag_.outside_bound_, whole);
-    const auto excess = static_cast<std::size_t>(whole - cost_limit_ - 1);
-    if (excess >= kCountedExcess) return;
-    if (excess >= dropped_.size()) dropped_.resize(excess + 1, 0);
-    ++dropped_[excess];
-  }
-
-  // Returns the least cost limit, at least outside_bound(), up to which the number of dropped costs
-  // is at least half the number of stored costs; if too few were dropped, a limit that admits all
-  // that were counted. The successors of the newly admitted states add about as many again.
-  Time next_cost_limit() const {
-    std::size_t count = 0;
-    for (std::size_t excess = 0; excess < dropped_.size(); ++excess)
-      if ((count += dropped_[excess]) >= dag_.cost_to_go_.size() / 2)
-        return std::max(dag_.outside_bound_, cost_limit_ + 1 + static_cast<Time>(excess));
-    return std::max(dag_.outside_bound_, cost_limit_ + static_cast<Time>(dropped_.size()));
-  }
-
   Time round_up(Time cost) const {
     return cost < kNever && parity_ >= 0 && (cost & 1) != parity_ ? cost + 1 : cost;
   }
@@ -268,8 +379,8 @@ class SequenceDagBuilder {
   void close_layer() {
     tails_.clear();
     auto first = static_cast<std::uint32_t>(dag_.state_count());
-    dag_.cost_to_go_.resize((first + states_.size()) * kPorts);
-    for (Group& group : groups_) {
+    dag_.cost_to_go_.resize((first + layer_.states.size()) * kPorts);
+    for (Group& group : layer_.groups) {
       group.node.first = first;
       if (group.node.at == 0) continue;
       first += static_cast<std::uint32_t>(std::popcount(group.node.at));
@@ -277,14 +388,13 @@ class SequenceDagBuilder {
       dag_.nodes_.push_back(group.node);
       tails_.push_back(group.tail);
     }
-    for (const State& state : states_) {
-      const SequenceDag::Node& node = groups_[state.group].node;
+    GROVE_CHECK(first == dag_.state_count(), "each state of a layer is in one node");
+    for (const State& state : layer_.states) {
+      const SequenceDag::Node& node = layer_.groups[state.group].node;
       std::ranges::copy(state.costs,
                         costs_of(node.first + std::popcount(node.at & (bit(state.stop) - 1))));
     }
-    groups_.clear();
-    states_.clear();
-    group_index_ = {};
+    layer_.clear();
   }
 
   // Expands every node of [begin, end) to every stop left. Returns false if a limit was reached or
@@ -293,57 +403,38 @@ class SequenceDagBuilder {
     for (std::size_t i = begin; i < end; ++i) {
       if (i % kPollInterval == 0 && !may_continue()) return false;
       const SequenceDag::Node& node = dag_.nodes_[i];
-      if (direct_ != nullptr) walk(node);
+      if (walks_.is_used()) walk(node);
       for_each_stop(node.left, [&](int next) {
         const PortCosts costs =
-            direct_ != nullptr ? costs_of_walking_to(next) : costs_of_reaching(next, node);
+            walks_.is_used() ? walks_.costs_to(next) : costs_of_reaching(next, node);
         // The weaker b: few states pass this test, and no tail is computed for the others.
         Time whole = kNever;
         for (int port = 0; port < kPorts; ++port)
-          whole = std::min(
-              whole, add_costs(costs[port],
-                               relaxation_.bound_from(tails_[i - begin], next * kPorts + port)));
+          whole =
+              std::min(whole, add_costs(costs[port], scope_.relaxation.bound_from(
+                                                         tails_[i - begin], next * kPorts + port)));
         whole = round_up(whole);
         if (whole <= cost_limit_)
           reach_state(node.left & ~bit(next), next, costs);
         else
-          drop(whole);
+          dropped_.add(whole);
       });
     }
     return true;
   }
 
-  StopSet visited(const SequenceDag::Node& node) const { return matrix_.all() & ~node.left; }
+  StopSet visited(const SequenceDag::Node& node) const { return scope_.matrix.all() & ~node.left; }
 
   // Computes the least cost of reaching each port of a visited stop by direct legs from the states
   // of the node, without visiting a stop that is left.
   void walk(const SequenceDag::Node& node) {
-    leg_costs_.fill(kNever);
-    reached_ports_.clear();
+    walks_.clear();
     std::uint32_t state = node.first;
     for_each_stop(node.at, [&](int stop) {
       const Time* here = costs_of(state++);
-      for (int i = 0; i < kPorts; ++i) walk_to(stop * kPorts + i, here[i]);
+      for (int i = 0; i < kPorts; ++i) walks_.reach(stop * kPorts + i, here[i]);
     });
-    for (std::size_t next = 0; next < reached_ports_.size(); ++next)
-      for (const int by : direct_->hops(reached_ports_[next]))
-        if ((node.left & bit(by / kPorts)) == 0)
-          walk_to(by, add_costs(leg_costs_[reached_ports_[next]],
-                                direct_->leg(reached_ports_[next], by)));
-  }
-  void walk_to(int port, Time cost) {
-    if (cost >= leg_costs_[port]) return;
-    leg_costs_[port] = cost;
-    reached_ports_.push_back(port);
-  }
-  PortCosts costs_of_walking_to(int next) const {
-    PortCosts costs;
-    costs.fill(kNever);
-    for (const int from : reached_ports_)
-      for (int to = 0; to < kPorts; ++to)
-        costs[to] = std::min(costs[to],
-                             add_costs(leg_costs_[from], direct_->leg(from, next * kPorts + to)));
-    return costs;
+    walks_.extend(node.left);
   }
 
   PortCosts costs_of_reaching(int next, const SequenceDag::Node& node) {
@@ -352,12 +443,12 @@ class SequenceDagBuilder {
     std::uint32_t state = node.first;
     for_each_stop(node.at, [&](int stop) {
       const Time* here = costs_of(state++);
-      if (passed_ != nullptr && (passed_->on_leg(stop, next) & node.left) != 0) return;
+      if (scope_.passed != nullptr && (scope_.passed->on_leg(stop, next) & node.left) != 0) return;
       for (int from = 0; from < kPorts; ++from)
         for (int to = 0; to < kPorts; ++to)
-          costs[to] = std::min(
-              costs[to],
-              add_costs(here[from], matrix_.between(stop * kPorts + from, next * kPorts + to)));
+          costs[to] =
+              std::min(costs[to], add_costs(here[from], scope_.matrix.between(stop * kPorts + from,
+                                                                              next * kPorts + to)));
     });
     return costs;
   }
@@ -367,19 +458,19 @@ class SequenceDagBuilder {
   bool may_continue() {
     const std::size_t bytes = dag_.nodes_.capacity() * sizeof(SequenceDag::Node) +
                               dag_.cost_to_go_.capacity() * sizeof(Time) + dag_.index_.bytes() +
-                              groups_.capacity() * sizeof(Group) +
-                              tails_.capacity() * sizeof(OneTreeRelaxation::Tail) +
-                              states_.capacity() * sizeof(State) + group_index_.bytes();
+                              layer_.bytes() + tails_.capacity() * sizeof(OneTreeRelaxation::Tail);
     if (bytes != asked_bytes_ && !limits_.memory_allows(bytes)) limits_.memory_exhausted();
     asked_bytes_ = bytes;
     return !is_too_large() && !limits_.stop_requested();
   }
-  bool is_too_large() const { return dag_.state_count() + states_.size() > max_states_; }
+  bool is_too_large() const {
+    return dag_.state_count() + layer_.states.size() > scope_.max_states;
+  }
 
   bool compute_cost_to_go() {
     for (std::size_t i = dag_.nodes_.size(); i-- > 0;) {
       if (i % kPollInterval == 0 && !may_continue()) return false;
-      if (direct_ != nullptr && dag_.nodes_[i].left != 0)
+      if (walks_.is_used() && dag_.nodes_[i].left != 0)
         compute_walks(dag_.nodes_[i]);
       else
         compute_cost_to_go_of(dag_.nodes_[i]);
@@ -387,90 +478,58 @@ class SequenceDagBuilder {
     return true;
   }
 
-  // Computes the cost to go from each port of a visited stop by direct legs, by iteration to a
-  // fixed point.
-  void compute_walks(const SequenceDag::Node& node) {
-    leg_costs_.fill(kNever);
-    std::array<Time, kMaxTasksPerAgent * kPorts> onward;
+  // The cost to go from each port of the stops left, by port.
+  using Onward = std::array<Time, kMaxTasksPerAgent * kPorts>;
+  void set_onward(const SequenceDag::Node& node, Onward& onward) const {
     for_each_stop(node.left, [&](int next) {
       for (int port = next * kPorts; port < (next + 1) * kPorts; ++port)
         onward[port] = dag_.cost_to_go(node.left & ~bit(next), port);
     });
-    const auto for_each_visited = [&](auto visit) {
-      for_each_stop(visited(node), [&](int stop) {
-        for (int port = stop * kPorts; port < (stop + 1) * kPorts; ++port) visit(port);
-      });
-    };
-    for_each_visited([&](int from) {
-      for_each_stop(node.left, [&](int next) {
-        for (int to = next * kPorts; to < (next + 1) * kPorts; ++to)
-          leg_costs_[from] =
-              std::min(leg_costs_[from], add_costs(direct_->leg(from, to), onward[to]));
-      });
-    });
-    for (bool changed = true; changed;) {
-      changed = false;
-      for_each_visited([&](int from) {
-        for (const int by : direct_->hops(from)) {
-          if ((node.left & bit(by / kPorts)) != 0) continue;
-          const Time cost = add_costs(direct_->leg(from, by), leg_costs_[by]);
-          if (cost >= leg_costs_[from]) continue;
-          leg_costs_[from] = cost;
-          changed = true;
-        }
-      });
-    }
+  }
+
+  // The same as compute_cost_to_go_of(), by direct legs.
+  void compute_walks(const SequenceDag::Node& node) {
+    Onward onward;
+    set_onward(node, onward);
+    walks_.compute_costs_to_go(visited(node), node.left, onward);
     std::uint32_t state = node.first;
     for_each_stop(node.at, [&](int stop) {
-      std::copy_n(&leg_costs_[stop * kPorts], kPorts, costs_of(state++));
+      std::copy_n(walks_.costs_from(stop), kPorts, costs_of(state++));
     });
   }
 
   // Computes the costs to go of the states of a node. A dropped port also gets the cost of its
   // routes inside the graph, because these routes exist.
   void compute_cost_to_go_of(const SequenceDag::Node& node) {
-    Time onward[kMaxTasksPerAgent * kPorts];
-    for_each_stop(node.left, [&](int next) {
-      for (int port = next * kPorts; port < (next + 1) * kPorts; ++port)
-        onward[port] = dag_.cost_to_go(node.left & ~bit(next), port);
-    });
+    Onward onward;
+    set_onward(node, onward);
     std::uint32_t state = node.first;
     for_each_stop(node.at, [&](int stop) {
       Time* here = costs_of(state++);
       for (int from = 0; from < kPorts; ++from) {
         const int port = stop * kPorts + from;
-        Time best = node.left == 0 ? matrix_.to_end(port) : kNever;
+        Time best = node.left == 0 ? scope_.matrix.to_end(port) : kNever;
         for_each_stop(node.left, [&](int next) {
           for (int to = next * kPorts; to < (next + 1) * kPorts; ++to)
-            best = std::min(best, add_costs(matrix_.between(port, to), onward[to]));
+            best = std::min(best, add_costs(scope_.matrix.between(port, to), onward[to]));
         });
         here[from] = best;
       }
     });
   }
 
-  const CostMatrix& matrix_;
-  const OneTreeRelaxation& relaxation_;
-  const DirectLegs* const direct_;
-  const PassedStops* const passed_;
-  const SequenceClass& sequence_class_;
-  const std::size_t max_states_;
+  const SequenceDag::Scope scope_;
   const Time cost_limit_;
   const Limits& limits_;
   const CostMatrix pair_costs_;  // by stop; empty without direct legs
   const int parity_;
 
   SequenceDag dag_{kNever};
-  std::vector<Group> groups_;
+  Layer layer_;
   std::vector<OneTreeRelaxation::Tail> tails_;  // by node of the last layer
-  std::vector<State> states_;
-  std::vector<std::size_t> dropped_;  // number of dropped costs, by excess over cost_limit_ minus 1
-  StopSetIndex group_index_;
+  DroppedCosts dropped_;
+  Walks<kPorts> walks_;
   std::size_t asked_bytes_ = 0;
-  // For the node in progress: cost by port of a visited stop (walk() and compute_walks()), and the
-  // ports with a cost, possibly with duplicates.
-  std::array<Time, kMaxTasksPerAgent * kPorts> leg_costs_;
-  std::vector<int> reached_ports_;
 };
 
 std::optional<SequenceDag> SequenceDag::build(const CostMatrix& matrix,
