@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "engine/checkpoints.h"
+#include "engine/checkpoint.h"
 #include "engine/run_state.h"
 #include "mpi/distributed_checkpoint.h"
 #include "mpi/hierarchy_links.h"
