@@ -27,6 +27,7 @@
 #include <map>
 #include <vector>
 
+#include "model/assert.h"
 #include "search/pebble_motion.h"
 
 namespace grove::detail {
@@ -106,13 +107,16 @@ class RestingMatching {
       const auto holder = holder_.find(cell);
       if (holder != holder_.end() && !augment(holder->second)) continue;
       holder_[cell] = agent;
+      GROVE_ASSERT(std::ranges::count(holder_, agent, &Holders::value_type::second) == 1,
+                   "each agent rests on one cell");
       return true;
     }
     return false;
   }
 
   const Instance& instance_;
-  std::map<Cell, AgentIndex> holder_;
+  using Holders = std::map<Cell, AgentIndex>;
+  Holders holder_;
   std::map<Cell, bool> tried_;
 };
 

@@ -55,8 +55,11 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <numeric>
+
+#include "model/assert.h"
 
 namespace grove::detail {
 namespace {
@@ -166,6 +169,8 @@ WdgHeuristic::Outcome WdgHeuristic::solve_conflicting_pairs(NodeView& view, Cost
     const bool solved =
         known.exact || solve(view, std::array{a, b}, slack, tuning_.pair_expansions, limits, known);
     if (!solved) return Outcome::kStopped;
+    GROVE_ASSERT(known.exact || known.excess > slack || known.expansions > 0,
+                 "no pair is examined twice");
     memory_.merge_pair(subproblem_[a], subproblem_[b], b, known);
   }
   return Outcome::kDone;
@@ -279,6 +284,15 @@ void WdgHeuristic::collect(std::vector<GroupExcess>& statements) {
     return s.agents == t.agents;
   };
   statements.erase(std::unique(statements.begin(), statements.end(), repeats), statements.end());
+  GROVE_ASSERT(std::ranges::adjacent_find(statements, std::greater_equal<>(),
+                                          &GroupExcess::agents) == statements.end(),
+               "statements are about distinct groups, in ascending order");
+  GROVE_ASSERT(std::ranges::all_of(statements,
+                                   [](const GroupExcess& s) {
+                                     return s.excess > 0 && s.agents.size() > 1 &&
+                                            std::ranges::is_sorted(s.agents);
+                                   }),
+               "a statement gives two or more agents a positive excess");
 }
 
 ProofKey WdgHeuristic::lemma_key(NodeView& view, const Split& split) {
