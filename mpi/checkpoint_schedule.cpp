@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mpi/checkpoint_schedule.h"
 
+#include "model/assert.h"
+
 namespace grove::detail {
 
 void CheckpointSchedule::update() {
@@ -13,6 +15,7 @@ void CheckpointSchedule::update() {
 }
 
 void CheckpointSchedule::abort() {
+  GROVE_CHECK(in_progress(), "only a checkpoint in progress is aborted");
   run_.run_events().checkpoint({.failure = "a rank is unresponsive"});
   current_.reset();
   wrote_last_ = true;

@@ -87,6 +87,7 @@
 #include <variant>
 #include <vector>
 
+#include "model/assert.h"
 #include "mpi/messages.h"
 
 namespace grove::detail {
@@ -172,6 +173,7 @@ void Coordinator::handle(int from, message::Message&& message) {
 }
 
 void Coordinator::update(int child, message::Status status) {
+  GROVE_CHECK(!ended(), "a child reports nothing after it has finished");
   load_balancer_.update(child, status);
   for (const message::BatchReceived& taken : status.taken) {
     load_balancer_.arrived(taken.by);
@@ -205,6 +207,7 @@ void Coordinator::step() {
 }
 
 void Coordinator::leave(const message::RankFinished& message) {
+  GROVE_CHECK(ending_ && !ended(), "each child finishes once, after Terminate");
   statistics_.finish(message);
   if (ended()) children_.send_message_counts({statistics_.messages()});
 }

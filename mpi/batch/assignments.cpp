@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/assert.h"
+
 namespace grove::detail::batch {
 namespace {
 
@@ -18,9 +20,20 @@ std::vector<Run> runs_of(const std::vector<Entry>& entries, const Settings& sett
 Assignments::Assignments(std::vector<Entry> entries, const Settings& settings)
     : entries_(std::move(entries)), runs_(runs_of(entries_, settings)) {}
 
+void Assignments::set_todo(std::vector<std::size_t> todo) {
+  todo_ = std::move(todo);
+  std::vector<bool> seen(runs_.size());
+  for (const std::size_t run : todo_) {
+    GROVE_CHECK(run < seen.size() && !seen[run], "each run is to do at most once");
+    seen[run] = true;
+  }
+}
+
 std::size_t Assignments::start(int leader, double now) {
+  GROVE_CHECK(any_waiting(), "only a run that waits is assigned");
   const std::size_t run = todo_[next_++];
-  in_progress_[leader] = {entries_[run].id, now};
+  const bool is_idle = in_progress_.try_emplace(leader, entries_[run].id, now).second;
+  GROVE_CHECK(is_idle, "a group solves one instance at a time");
   return run;
 }
 

@@ -27,9 +27,10 @@ class Assignments {
   // By position of the entry.
   const std::vector<Run>& runs() const { return runs_; }
   // Sets the runs to do: positions in runs(), in the order in which to do them.
-  void set_todo(std::vector<std::size_t> todo) { todo_ = std::move(todo); }
+  void set_todo(std::vector<std::size_t> todo);
 
-  bool any_waiting() const { return next_ < todo_.size(); }
+  std::size_t waiting() const { return todo_.size() - next_; }
+  bool any_waiting() const { return waiting() > 0; }
   // By leader.
   const std::map<int, InProgress>& in_progress() const { return in_progress_; }
   // Assigns the next waiting run, of which there must be one, to the group of `leader`. Returns its

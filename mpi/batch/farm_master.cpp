@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "model/assert.h"
+
 namespace grove::detail::batch {
 namespace {
 
@@ -39,6 +41,7 @@ void FarmMaster::poll() {
   stop_if_interrupted();
   record();
   answer();
+  check_runs();
   if (done()) {
     table_.write_csv();
     table_.end();
@@ -86,6 +89,16 @@ void FarmMaster::record() {
   writer_.write(finished_);
   for (const Row& row : finished_) state_.count(row);
   finished_.clear();
+}
+
+// Each run waits, is in progress or has a row, unless its group aborted it after an interrupt.
+void FarmMaster::check_runs() const {
+  const auto in_progress = std::ssize(assignments_.in_progress());
+  const std::int64_t known =
+      state_.done() + in_progress + static_cast<std::int64_t>(assignments_.waiting());
+  GROVE_CHECK(known == state_.total || (stopping_ && known < state_.total),
+              "each run waits, is in progress or is done");
+  GROVE_CHECK(dismissed_ + in_progress <= state_.groups, "a group in progress is not dismissed");
 }
 
 bool FarmMaster::has_work() const {

@@ -80,6 +80,7 @@ class FarmMaster {
   void send(int leader, FarmMessage message);
   void stop_if_interrupted();
   void record();
+  void check_runs() const;
   void answer();
   bool has_work() const;
   void assign_next(int leader);

@@ -25,6 +25,7 @@
 #include "io/input_error.h"
 #include "io/instance_file.h"
 #include "io/plan_file.h"
+#include "model/assert.h"
 #include "tools/bench/child_process.h"
 #include "tools/bench/root_costs.h"
 #include "tools/bench/run_outcome.h"
@@ -143,6 +144,7 @@ class Bench {
     const std::lock_guard lock(mutex_);
     under_way_[worker].busy = false;
     if (must_stop() || next_ == todo_.size()) return std::nullopt;
+    GROVE_CHECK(!table_.find(runs_[todo_[next_]]), "a run that starts has no row");
     under_way_[worker] = {true, Clock::now()};
     return todo_[next_++];
   }
@@ -296,8 +298,11 @@ class Bench {
 
   void record(const batch::Row& row) {
     const std::lock_guard lock(mutex_);
+    GROVE_CHECK(!row.root_cost || !row.outcome.cost || *row.root_cost <= *row.outcome.cost,
+                "no plan costs less than the sum of the agents' best sequences");
     writer_.write({&row, 1});
     state_.count(row);
+    GROVE_CHECK(state_.work.left >= 0, "no run is counted twice");
   }
 
   // --- progress ---

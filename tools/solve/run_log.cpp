@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/assert.h"
 #include "model/limits.h"
 
 namespace grove::detail {
@@ -69,6 +70,8 @@ void RunLog::BoundCauses::update(const Progress& progress) {
   rises_[outside_source ? name_of(*outside_source)
          : is_known     ? in_tree_
                         : "tree"] += progress.lower_bound - bound_;
+  GROVE_CHECK(std::ranges::all_of(rises_, [](const auto& rise) { return rise.second > 0; }),
+              "each cause has raised the bound");
   bound_ = progress.lower_bound;
 }
 
@@ -95,6 +98,7 @@ void RunLog::row(const Progress& progress) {
   causes_.clear();
   has_rows_ = true;
   event_ = RunEvent::kProgress;
+  GROVE_CHECK(seconds() >= last_row_s_, "rows are in order of time");
   last_row_s_ = seconds();
   last_row_nodes_ = progress.nodes_expanded;
 }
