@@ -91,8 +91,8 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
       case WdgHeuristic::Outcome::kDone:
         break;
     }
-    GROVE_CHECK(bound >= node->cost() && bound <= cutoff,
-                "a node's bound is from its cost to the cutoff");
+    GROVE_CHECK(bound == cutoff || (bound >= node->cost() && bound < cutoff),
+                "a node's bound is the cutoff, or from its cost to the cutoff");
     if (bound >= cutoff) return expansion;
     if (bound > node->bound()) {
       NodeDelta change;

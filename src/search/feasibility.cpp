@@ -92,7 +92,14 @@ class RestingMatching {
 
   bool place(AgentIndex agent) {
     tried_.clear();
-    return augment(agent);
+    const bool is_placed = augment(agent);
+    GROVE_ASSERT(std::ranges::all_of(holder_,
+                                     [&](const auto& held) {
+                                       return std::ranges::count(holder_, held.second,
+                                                                 &Holders::value_type::second) == 1;
+                                     }),
+                 "each agent rests on one cell");
+    return is_placed;
   }
 
  private:
@@ -107,8 +114,6 @@ class RestingMatching {
       const auto holder = holder_.find(cell);
       if (holder != holder_.end() && !augment(holder->second)) continue;
       holder_[cell] = agent;
-      GROVE_ASSERT(std::ranges::count(holder_, agent, &Holders::value_type::second) == 1,
-                   "each agent rests on one cell");
       return true;
     }
     return false;
