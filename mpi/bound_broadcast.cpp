@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/assert.h"
 #include "mpi/polling.h"
 
 namespace grove::detail {
@@ -60,6 +61,8 @@ std::vector<BoundBroadcast::OutgoingMessage> BoundBroadcast::due(double now) {
   for (auto at = waiting_.rbegin(); at != waiting_.rend(); ++at, --left) {
     const int reach = at->first;
     const int to = (rank_ + (reach + 1) / 2) % ranks_;
+    GROVE_CHECK(reach > 1 && reach <= ranks_ && to != rank_,
+                "a rank sends to another rank in its reach");
     message::LearnedBounds facts = best_of(at->second, allowance_ / left, reach / 2);
     if (!facts.facts.empty()) parcels.push_back({to, std::move(facts)});
   }
@@ -84,8 +87,11 @@ message::LearnedBounds BoundBroadcast::best_of(Waiting& waiting, double bytes, i
     allowance_ -= more;
     sent.facts.push_back(best);
     std::pop_heap(waiting.begin(), waiting.end());
+    GROVE_ASSERT(waiting.back().utility >= waiting.front().utility,
+                 "the most useful bounds are sent first");
     waiting.pop_back();
   }
+  GROVE_CHECK(bytes >= 0, "no more bytes are sent than allowed");
   return sent;
 }
 

@@ -87,6 +87,7 @@
 #include <variant>
 #include <vector>
 
+#include "model/assert.h"
 #include "mpi/messages.h"
 
 namespace grove::detail {
@@ -99,6 +100,11 @@ constexpr std::size_t kNodesPerAssignment = 200;  // nodes per AssignNodes messa
 // has that much time, whether or not a checkpoint is written.
 constexpr auto kMaxSilence = std::chrono::milliseconds(700);
 
+ChildLinks links_of_top(Transport& transport, std::int64_t max_children) {
+  const Hierarchy hierarchy(transport.ranks(), max_children);
+  return {transport, hierarchy, hierarchy.levels()};
+}
+
 }  // namespace
 
 Coordinator::Coordinator(const Problem& problem, const SolveOptions& options, const Limits& limits,
@@ -107,14 +113,13 @@ Coordinator::Coordinator(const Problem& problem, const SolveOptions& options, co
       options_(options),
       limits_(limits),
       transport_(transport),
-      hierarchy_(transport.ranks(), options.tuning.coordinator_children),
-      children_(transport, hierarchy_, hierarchy_.levels()),
+      children_(links_of_top(transport, options.tuning.coordinator_children)),
       announcer_(observer, children_),
       nodes_(children_),
       run_(problem, options, limits, announcer_, pool_, nodes_),
       load_balancer_(children_.ranks(), options.tuning),
-      timer_(options.checkpoints, limits),
-      last_message_at_(limits.now()) {
+      checkpoints_(options.checkpoints, limits, run_, transport, children_),
+      silence_(limits.now()) {
   run_.run_events().set_statistics_source([this] { return statistics(); });
 }
 
@@ -135,8 +140,7 @@ void Coordinator::begin() {
 // Restores the run, and assigns the nodes to the children while it reads them.
 void Coordinator::restore(CheckpointReader& checkpoint) {
   const auto roots = run_.restore(checkpoint.header());
-  restored_ = roots.has_value();
-  if (!roots) return;
+  if (!roots) return checkpoints_.disable();
   nodes_.assign({{}, checkpoint.header().evicted_bound});
   std::vector<NodeRecord> nodes;
   const auto send = [&] { nodes_.assign({std::exchange(nodes, {}), kInfiniteCost}); };
@@ -160,22 +164,16 @@ void Coordinator::handle(int from, message::Message&& message) {
                  [&](message::NewPlan& found) {
                    run_.shared_bounds().post(std::move(found.plan), found.source);
                  },
-                 [&](message::SnapshotTaken& gathered) {
-                   if (gathering_) gathering_->handle(gathered);  // else it was aborted
-                 },
-                 [&](message::SnapshotPart& part) {
-                   if (gathering_) gathering_->handle(std::move(part));
-                 },
-                 [&](message::ProcessStatistics& report) {
-                   for (const auto& [rank, statistics] : report.statistics.ranks)
-                     rank_statistics_[rank] = report.statistics;
-                 },
+                 [&](message::SnapshotTaken& taken) { checkpoints_.handle(taken); },
+                 [&](message::SnapshotPart& part) { checkpoints_.handle(std::move(part)); },
+                 [&](message::ProcessStatistics& report) { statistics_.update(report); },
                  [&](message::RankFinished& finished) { leave(finished); }, unexpected},
       message);
-  last_message_at_ = limits_.now();  // after the handling, because writing a checkpoint takes time
+  silence_.heard(limits_.now());  // after the handling, because writing a checkpoint takes time
 }
 
 void Coordinator::update(int child, message::Status status) {
+  GROVE_CHECK(!ended(), "a child reports nothing after it has finished");
   load_balancer_.update(child, status);
   for (const message::BatchReceived& taken : status.taken) {
     load_balancer_.arrived(taken.by);
@@ -194,21 +192,10 @@ void Coordinator::update(int child, message::Status status) {
                    message::SendNodes{transfer->to, transfer->nodes, transfer->to_idle});
 }
 
-// Starts checkpoints, one at a time. The last one is written when the search is over, before
-// Terminate is sent.
-void Coordinator::update_checkpoints() {
-  if (gathering_ && gathering_->is_done()) gathering_.reset();
-  if (gathering_ || options_.checkpoints.directory.empty() || !restored_) return;
-  const bool is_last = run_.shared_bounds().over() && !gathered_at_end_;
-  if (!is_last && (run_.shared_bounds().over() || !timer_.due())) return;
-  gathered_at_end_ = is_last;
-  gathering_.emplace(options_.checkpoints, limits_, run_, transport_, children_);
-}
-
 void Coordinator::step() {
   if (ending_) return;
-  update_checkpoints();
-  if (gathering_) return;
+  checkpoints_.update();
+  if (checkpoints_.in_progress()) return;  // the last one is written before Terminate is sent
   if (run_.shared_bounds().over()) {
     ending_ = true;
     children_.broadcast(message::Terminate{});
@@ -220,49 +207,36 @@ void Coordinator::step() {
 }
 
 void Coordinator::leave(const message::RankFinished& message) {
-  add(message, finished_);
-  if (++finished_children_ == children_.count())
-    children_.send_message_counts({finished_.messages});
+  GROVE_CHECK(ending_ && !ended(), "each child finishes once, after Terminate");
+  statistics_.finish(message);
+  if (ended()) children_.send_message_counts({statistics_.messages()});
 }
 
-// The last status of an unresponsive rank stays valid. Silence before the limit does not count,
-// because possibly there was nothing to report. This rank is never counted, because its worker can
-// be in a long step.
+// The last status of an unresponsive rank stays valid. This rank is never counted, because its
+// worker can be in a long step.
 std::int64_t Coordinator::check_unresponsive_ranks() {
   if (ended() || !limits_.stop_requested()) return 0;
   const Clock::time_point now = limits_.now();
-  if (!stopped_at_) stopped_at_ = now;
-  if (now - std::max(last_message_at_, *stopped_at_) < kMaxSilence) return 0;
-  if (gathering_) {
-    run_.run_events().checkpoint({.failure = "a rank is unresponsive"});
-    gathering_.reset();
-    gathered_at_end_ = true;
+  silence_.limit_is_reached(now);
+  if (silence_.silence(now) < kMaxSilence) return 0;
+  if (checkpoints_.in_progress()) {
+    checkpoints_.abort();
     return 0;
   }
-  if (!ending_ || now - *stopped_at_ < 2 * kMaxSilence) return 0;
-  const auto& ranks = finished_.statistics.ranks;
-  return transport_.ranks() - std::ssize(ranks) - (ranks.contains(0) ? 0 : 1);
+  if (!ending_ || silence_.since_limit(now) < 2 * kMaxSilence) return 0;
+  return transport_.ranks() - statistics_.finished_ranks() - (statistics_.has_finished(0) ? 0 : 1);
 }
 
 Solution Coordinator::conclude() {
   run_.end();
   Solution solution = run_.conclude();
-  for (const auto& [key, count] : received_statistics().whole.counts)
+  for (const auto& [key, count] : statistics_.all().whole.counts)
     solution.stats.counts[key] += count;
   return solution;
 }
 
-// Returns the final statistics of the ranks that have finished and the latest statistics of the
-// others. (A simulated run that reaches a limit ends without RankFinished.)
-RunStatistics Coordinator::received_statistics() const {
-  RunStatistics all = finished_.statistics;
-  for (const auto& [rank, statistics] : rank_statistics_)
-    if (!all.ranks.contains(rank)) add(statistics, all);
-  return all;
-}
-
 RunStatistics Coordinator::statistics() const {
-  RunStatistics statistics = received_statistics();
+  RunStatistics statistics = statistics_.all();
   Counters of_plans;
   run_.shared_bounds().add_counts(of_plans);
   add(of_plans, statistics.whole.counts);

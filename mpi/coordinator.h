@@ -2,17 +2,18 @@
 // The coordinator of a distributed search, on rank 0.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <map>
 #include <optional>
 
 #include "engine/run_observer.h"
 #include "engine/run_state.h"
-#include "mpi/distributed_checkpoint.h"
+#include "mpi/checkpoint_schedule.h"
 #include "mpi/hierarchy_links.h"
 #include "mpi/load_balancer.h"
 #include "mpi/messages.h"
 #include "mpi/rank_nodes.h"
+#include "mpi/received_statistics.h"
 #include "mpi/transport.h"
 #include "search/node_pool.h"
 
@@ -40,7 +41,7 @@ class Coordinator {
 
   Cost lower_bound() { return run_.shared_bounds().lower_bound(); }
   // True if every child has sent RankFinished.
-  bool ended() const { return finished_children_ == children_.count(); }
+  bool ended() const { return statistics_.finished_children() == children_.count(); }
   // Returns the number of unresponsive ranks. A rank other than this one is unresponsive if a limit
   // was reached, no message has arrived at the coordinator for too long since then, and no
   // RankFinished has arrived for the rank (from the rank itself or from its sub-coordinator). If a
@@ -64,37 +65,44 @@ class Coordinator {
     ChildLinks& children_;
   };
 
+  // Measures the silence of the children after a limit.
+  class SilenceClock {
+   public:
+    explicit SilenceClock(Clock::time_point now) : last_message_at_(now) {}
+
+    void heard(Clock::time_point now) { last_message_at_ = now; }
+    // The limit counts as reached at the first call.
+    void limit_is_reached(Clock::time_point now) { limit_at_ = limit_at_.value_or(now); }
+    Clock::duration since_limit(Clock::time_point now) const { return now - *limit_at_; }
+    // Silence before the limit does not count, because possibly there was nothing to report.
+    Clock::duration silence(Clock::time_point now) const {
+      return now - std::max(last_message_at_, *limit_at_);
+    }
+
+   private:
+    Clock::time_point last_message_at_;  // when the last message from a child was handled
+    std::optional<Clock::time_point> limit_at_;
+  };
+
   void restore(CheckpointReader& checkpoint);
   void update(int child, message::Status status);
-  void update_checkpoints();
   void leave(const message::RankFinished& message);
-  RunStatistics received_statistics() const;
   RunStatistics statistics() const;
 
   const Instance& instance_;
   const SolveOptions& options_;
   const Limits& limits_;
   Transport& transport_;
-  const Hierarchy hierarchy_;
   ChildLinks children_;
   Announcer announcer_;
   NodePool pool_;  // memory of the root nodes
   RankNodes nodes_;
   RunState run_;
   LoadBalancer load_balancer_;
-
-  CheckpointTimer timer_;
-  std::optional<DistributedCheckpoint> gathering_;
-  bool restored_ = true;  // false: a limit was reached before the checkpoint was fully restored
-  bool gathered_at_end_ = false;
+  CheckpointSchedule checkpoints_;
+  ReceivedStatistics statistics_;
+  SilenceClock silence_;
   bool ending_ = false;
-  Clock::time_point last_message_at_;  // when the last message from a child was handled
-  // When check_unresponsive_ranks() first saw that a limit was reached.
-  std::optional<Clock::time_point> stopped_at_;
-  int finished_children_ = 0;
-  message::RankFinished finished_;  // sum over the children that have finished
-  std::map<int, RunStatistics>
-      rank_statistics_;  // by rank: the latest statistics before its RankFinished
 };
 
 }  // namespace grove::detail

@@ -23,6 +23,7 @@
 #include <stdexcept>
 
 #include "io/input_error.h"
+#include "model/assert.h"
 
 namespace grove::detail {
 
@@ -59,6 +60,7 @@ void DistributedCheckpoint::write(Write what) {
 }
 
 void DistributedCheckpoint::handle(const message::SnapshotTaken& gathered) {
+  GROVE_CHECK(snapshots_taken_ < children_.count(), "each child takes one snapshot");
   evicted_bound_ = std::min(evicted_bound_, gathered.evicted_bound);
   if (++snapshots_taken_ < children_.count()) return;
   write([&] {
@@ -77,6 +79,8 @@ void DistributedCheckpoint::send_heartbeat() {
 }
 
 void DistributedCheckpoint::handle(message::SnapshotPart&& part) {
+  GROVE_CHECK(asked_ >= 0 && asked_ < transport_.ranks(),
+              "a part of a snapshot comes from a rank that was asked");
   send_heartbeat();
   write([&] {
     for (NodeRecord& node : part.nodes) {
@@ -96,6 +100,7 @@ void DistributedCheckpoint::ask_next() {
     transport_.send(asked_, bytes_of(message::SnapshotNext{}, 0));
     return;
   }
+  GROVE_CHECK(!done_, "a checkpoint ends once");
   write([&] { writer_->finish(); });
   report_.seconds = std::chrono::duration<double>(limits_.now() - begin_).count();
   run_.run_events().checkpoint(report_);

@@ -44,6 +44,8 @@ class Hierarchy {
   bool is_below(Endpoint post, int rank) const;
 
  private:
+  bool is_partition() const;
+
   int ranks_;
   std::vector<int> strides_;  // by level: distance in ranks between neighbouring coordinators
 };

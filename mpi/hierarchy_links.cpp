@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "model/assert.h"
 #include "mpi/polling.h"
 
 namespace grove::detail {
@@ -11,6 +12,11 @@ std::vector<std::vector<int>> ChildLinks::ranks() const {
   std::vector<std::vector<int>> all(static_cast<std::size_t>(count()));
   for (int rank = post_.rank; rank < hierarchy_.ranks() && include(rank); ++rank)
     all[static_cast<std::size_t>(with(rank))].push_back(rank);
+  for (int child = 0; child < count(); ++child) {
+    const std::vector<int>& below = all[static_cast<std::size_t>(child)];
+    GROVE_CHECK(!below.empty() && below.front() == hierarchy_.child(post_, child).rank,
+                "a child is on the first of the ranks below it");
+  }
   return all;
 }
 
@@ -76,6 +82,10 @@ bool ParentLink::is_urgent(const message::Status& status) const {
 }
 
 bool ParentLink::report(message::Status status, double now) {
+  GROVE_CHECK(status.expanded >= last_sent_.expanded && status.assigned >= last_sent_.assigned &&
+                  status.epoch >= last_sent_.epoch && status.proven >= last_sent_.proven,
+              "a status never goes back");
+  GROVE_CHECK(now >= last_sent_at_, "statuses are reported in order of time");
   reports_at_ = kNoReport;
   if (!urgent_ && status == last_sent_) return false;
   const double next = last_sent_at_ + pause_at(last_sent_at_, pause_);

@@ -14,8 +14,12 @@
 #include "mpi/load_balancer.h"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 #include <ranges>
 #include <utility>
+
+#include "model/assert.h"
 
 namespace grove::detail {
 namespace {
@@ -41,12 +45,21 @@ LoadBalancer::LoadBalancer(const std::vector<std::vector<int>>& children, const 
 
 void LoadBalancer::update(int child, const message::Status& status) {
   View& at = view(child);
-  for (const Request& request : at.requests) requests_.erase(request);
+  for (const Request& request : at.requests) {
+    const std::size_t erased = requests_.erase(request);
+    GROVE_CHECK(erased == 1, "each request of a child is listed once");
+  }
   at.requests.clear();
   for (const message::WorkRequest& want : status.work_requests) {
     const Request& request = at.requests.emplace_back(!want.idle, -want.best, want.rank);
     requests_[request] = child;
   }
+  GROVE_ASSERT(
+      requests_.size() == std::accumulate(children_.begin(), children_.end(), std::size_t{0},
+                                          [](std::size_t sum, const View& view) {
+                                            return sum + view.requests.size();
+                                          }),
+      "the list has the requests of all children");
   offer(child, status.surplus);
 }
 
@@ -58,8 +71,18 @@ void LoadBalancer::arrived(int rank) {
 void LoadBalancer::offer(int child, std::vector<message::Surplus> surplus) {
   View& at = view(child);
   const auto best = [&] { return Offer(at.surplus[0].bound, -all_of(at.surplus[0]), child); };
-  if (!at.surplus.empty()) offers_.erase(best());
+  const std::size_t erased = at.surplus.empty() ? 0 : offers_.erase(best());
+  GROVE_CHECK(erased == (at.surplus.empty() ? 0 : 1), "the best surplus of a child is on offer");
   at.surplus = std::move(surplus);
+  GROVE_CHECK(std::ranges::adjacent_find(at.surplus, std::greater_equal<>(),
+                                         &message::Surplus::bound) == at.surplus.end(),
+              "a surplus is in ascending order of bounds");
+  GROVE_CHECK(std::ranges::all_of(at.surplus,
+                                  [](const message::Surplus& surplus) {
+                                    return surplus.nodes >= 0 && surplus.next >= 0 &&
+                                           all_of(surplus) > 0;
+                                  }),
+              "a surplus has no entry without nodes");
   if (!at.surplus.empty()) offers_.insert(best());
 }
 
@@ -93,8 +116,11 @@ std::optional<LoadBalancer::Transfer> LoadBalancer::next() {
     const std::int64_t nodes = busy ? surplus.nodes : all_of(surplus);
     if (nodes == 0) continue;
     const Transfer transfer{from, to, std::min(nodes, tuning_.transfer_nodes), !busy};
+    GROVE_CHECK(from != child && transfer.nodes > 0,
+                "a transfer takes nodes from another child than the one that gets them");
     take(from, transfer.nodes);
-    awaiting_.insert(to);
+    const bool is_first = awaiting_.insert(to).second;
+    GROVE_CHECK(is_first, "a rank awaits at most one transfer");
     return transfer;
   }
   return std::nullopt;

@@ -2,9 +2,12 @@
 #include "mpi/rank_nodes.h"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
+
+#include "model/assert.h"
 
 namespace grove::detail {
 
@@ -26,16 +29,33 @@ void RankNodes::update(int child, message::Status status) {
   if (arrived < 0 || arrived > std::ssize(sent) || status.epoch < latest.epoch ||
       status.epoch > epoch_)
     throw std::invalid_argument("coordinator: status does not match the messages to the rank");
+  GROVE_CHECK(status.expanded >= latest.expanded && status.proven >= latest.proven,
+              "a child's expanded nodes and proven bound never fall");
+  GROVE_CHECK(status.live || status.open == 0, "a child without live nodes has no open one");
   bounds_.insert(status.bound);
-  bounds_.erase(bounds_.find(latest.bound));
+  erase_bound(latest.bound);
   for (std::int64_t i = 0; i < arrived; ++i) {
-    bounds_.erase(bounds_.find(sent.front()));
+    erase_bound(sent.front());
     sent.pop_front();
     --assignments_in_transit_;
   }
   add(latest, -1);
   add(status, 1);
   latest = std::move(status);
+  GROVE_CHECK(std::ssize(bounds_) == std::ssize(latest_) + assignments_in_transit_,
+              "each latest status and each assignment in transit has one bound");
+  GROVE_ASSERT(assignments_in_transit_ == std::accumulate(under_way_.begin(), under_way_.end(),
+                                                          std::int64_t{0},
+                                                          [](std::int64_t sum, const auto& bounds) {
+                                                            return sum + std::ssize(bounds);
+                                                          }),
+               "the assignments in transit are those of all children");
+}
+
+void RankNodes::erase_bound(Cost bound) {
+  const auto found = bounds_.find(bound);
+  GROVE_CHECK(found != bounds_.end(), "the bound of a status or an assignment is known");
+  bounds_.erase(found);
 }
 
 void RankNodes::add(const message::Status& status, int sign) {
@@ -43,6 +63,9 @@ void RankNodes::add(const message::Status& status, int sign) {
   counts_.open += sign * status.open;
   if (status.live) children_with_nodes_ += sign;
   if (status.epoch == epoch_) children_of_this_epoch_ += sign;
+  GROVE_CHECK(children_with_nodes_ >= 0 && children_with_nodes_ <= std::ssize(latest_) &&
+                  children_of_this_epoch_ >= 0 && children_of_this_epoch_ <= std::ssize(latest_),
+              "each child is counted at most once");
 }
 
 Cost RankNodes::bound() const {
@@ -73,6 +96,7 @@ message::Status RankNodes::merged() const {
       std::tie(all.proven, all.proven_by) = std::tie(status.proven, status.proven_by);
     if (all.stopped == StopReason::kNone) all.stopped = status.stopped;
   }
+  GROVE_CHECK(all.bound <= all.evicted_bound, "the bound of a group covers its evicted nodes");
   return all;
 }
 
@@ -111,6 +135,7 @@ void RankNodes::broadcast_restart(Cost proven) {
 }
 
 void RankNodes::restart(std::span<const NodePtr> roots, Cost proven) {
+  GROVE_CHECK(!any(), "a restart requires that no node is live on any rank");
   broadcast_restart(proven);
   for (const NodePtr& root : roots) push(root);
 }

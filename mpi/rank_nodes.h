@@ -51,6 +51,7 @@ class RankNodes : public LiveNodes {
  private:
   int least_loaded() const;
   void add(const message::Status& status, int sign);
+  void erase_bound(Cost bound);
 
   ChildLinks& children_;
   std::vector<message::Status> latest_;      // by child

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "mpi/remote_bounds.h"
 
+#include "model/assert.h"
+
 namespace grove::detail {
 
 std::optional<Plan> RemoteBounds::plan_below(Cost cost) const {
   if (cutoff_ >= cost) return std::nullopt;
   const std::lock_guard lock(mutex_);
+  GROVE_CHECK(incumbent_ && incumbent_->cost < cost, "the cutoff is the cost of the incumbent");
   return incumbent_;
 }
 
@@ -24,6 +27,7 @@ void RemoteBounds::adopt(Plan plan) {
   const std::lock_guard lock(mutex_);
   if (plan.cost >= cutoff_) return;
   const Cost cost = plan.cost;
+  GROVE_CHECK(!incumbent_ || cost < incumbent_->cost, "the cost of the incumbent falls");
   incumbent_ = std::move(plan);
   cutoff_ = cost;
 }

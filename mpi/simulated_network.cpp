@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 
 class SimulatedNetwork::End : public Transport {
@@ -47,6 +49,7 @@ double SimulatedNetwork::next_arrival(int rank) const {
 void SimulatedNetwork::send(int from, int to, std::string bytes) {
   double& last = last_arrival_[static_cast<std::size_t>(from)][to];
   last = std::max(last, now_ + delay_(from, to, bytes.size()));
+  GROVE_CHECK(last >= now_, "a message arrives no earlier than it was sent");
   inboxes_[static_cast<std::size_t>(to)].push({last, serial_++, {from, std::move(bytes)}});
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "model/assert.h"
 #include "mpi/messages.h"
 
 namespace grove::detail {
@@ -79,6 +80,14 @@ void SubCoordinator::handle(int from, message::Message&& message) {
 void SubCoordinator::update(int child, message::Status&& status) {
   load_balancer_.update(child, status);
   for (const message::BatchReceived& taken : status.taken) {
+    GROVE_CHECK(children_.include(taken.by), "a child reports batches received by its ranks");
+    GROVE_CHECK(std::ranges::none_of(taken_,
+                                     [&](const message::BatchReceived& earlier) {
+                                       return earlier.by == taken.by &&
+                                              earlier.from == taken.from &&
+                                              earlier.batches >= taken.batches;
+                                     }),
+                "the number of batches received rises with every report");
     load_balancer_.arrived(taken.by);
     if (children_.include(taken.from))
       children_.send(children_.with(taken.from),
@@ -97,10 +106,13 @@ void SubCoordinator::update(int child, message::Status&& status) {
 // forwarded.
 void SubCoordinator::gathered(const message::SnapshotTaken& parts) {
   gathered_.evicted_bound = std::min(gathered_.evicted_bound, parts.evicted_bound);
+  GROVE_CHECK(snapshots_taken_ < children_.count(), "each child takes one snapshot");
   if (++snapshots_taken_ == children_.count()) parent_.send(gathered_);
 }
 
 void SubCoordinator::send_finished(const message::RankFinished& message) {
+  GROVE_CHECK(ending_ && finished_children_ < children_.count(),
+              "each child finishes once, after Terminate");
   add(message, finished_);
   if (++finished_children_ == children_.count()) parent_.send(finished_);
 }

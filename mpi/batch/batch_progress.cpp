@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/assert.h"
+
 namespace grove::detail::batch {
 
 void BatchState::count(const Row& row) {
@@ -17,6 +19,7 @@ void BatchState::count(const Row& row) {
   } else {
     ++limited;
   }
+  GROVE_CHECK(total == 0 || done() <= total, "no instance is counted twice");
 }
 
 std::optional<double> seconds_left(const BatchState& state) {

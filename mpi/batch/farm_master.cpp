@@ -4,16 +4,12 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "model/assert.h"
+
 namespace grove::detail::batch {
 namespace {
 
 constexpr double kCsvInterval_s = 10;  // between writes of the CSV file; each writes all rows
-
-std::vector<Run> runs_of(const std::vector<Entry>& entries, const Settings& settings) {
-  std::vector<Run> runs;
-  for (const Entry& entry : entries) runs.push_back({entry.id, entry.digest, settings});
-  return runs;
-}
 
 }  // namespace
 
@@ -21,18 +17,18 @@ FarmMaster::FarmMaster(Transport& world, Grouping grouping, std::vector<Entry> e
                        ResultTable& table, std::atomic<bool>& interrupted, BatchClock clock,
                        MasterOptions options)
     : world_(world),
-      grouping_(grouping),
       table_(table),
       interrupted_(interrupted),
       clock_(std::move(clock)),
       options_(std::move(options)),
       start_(clock_.seconds()),
-      entries_(std::move(entries)),
-      runs_(runs_of(entries_, options_.settings)),
-      todo_(table.begin(runs_)) {
-  state_.total = static_cast<int>(entries_.size());
-  state_.groups = grouping_.groups();
-  for (const Run& run : runs_)
+      assignments_(std::move(entries), options_.settings),
+      writer_(table, {.flush_s = 0, .csv_s = kCsvInterval_s}, [this] { return seconds(); }) {
+  const std::vector<Run>& runs = assignments_.runs();
+  assignments_.set_todo(table.begin(runs));
+  state_.total = static_cast<int>(runs.size());
+  state_.groups = grouping.groups();
+  for (const Run& run : runs)
     if (const Row* row = table_.find(run)) state_.count(*row);
 }
 
@@ -45,6 +41,7 @@ void FarmMaster::poll() {
   stop_if_interrupted();
   record();
   answer();
+  check_runs();
   if (done()) {
     table_.write_csv();
     table_.end();
@@ -57,25 +54,18 @@ void FarmMaster::on(int from, RequestWork&) {
 }
 
 void FarmMaster::on(int from, Report& report) {
-  end_assignment(from, &report.row.run.instance);
+  assignments_.end(from, &report.row.run.instance);
   finished_.push_back(std::move(report.row));
 }
 
 void FarmMaster::on(int from, Aborted&) {
-  end_assignment(from, nullptr);
+  assignments_.end(from, nullptr);
   interrupted_ = true;
 }
 
 template <typename Other>
 void FarmMaster::on(int, Other&) {
   throw std::logic_error("farm master: unexpected message type");
-}
-
-void FarmMaster::end_assignment(int leader, const std::string* id) {
-  const auto it = under_way_.find(leader);
-  if (it == under_way_.end() || (id != nullptr && it->second.id != *id))
-    throw std::logic_error("a group reports a run that was not assigned to it");
-  under_way_.erase(it);
 }
 
 void FarmMaster::send(int leader, FarmMessage message) {
@@ -91,22 +81,28 @@ void FarmMaster::send(int leader, FarmMessage message) {
 void FarmMaster::stop_if_interrupted() {
   if (stopping_ || !interrupted_) return;
   stopping_ = true;
-  for (const auto& [leader, what] : under_way_) send(leader, Stop{});
+  for (const auto& [leader, what] : assignments_.in_progress()) send(leader, Stop{});
 }
 
 void FarmMaster::record() {
   if (finished_.empty()) return;
-  table_.append(finished_);
-  table_.flush();
+  writer_.write(finished_);
   for (const Row& row : finished_) state_.count(row);
   finished_.clear();
-  if (seconds() < next_csv_s_) return;
-  table_.write_csv();
-  next_csv_s_ = seconds() + kCsvInterval_s;
+}
+
+// Each run waits, is in progress or has a row, unless its group aborted it after an interrupt.
+void FarmMaster::check_runs() const {
+  const auto in_progress = std::ssize(assignments_.in_progress());
+  const std::int64_t known =
+      state_.done() + in_progress + static_cast<std::int64_t>(assignments_.waiting());
+  GROVE_CHECK(known == state_.total || (stopping_ && known < state_.total),
+              "each run waits, is in progress or is done");
+  GROVE_CHECK(dismissed_ + in_progress <= state_.groups, "a group in progress is not dismissed");
 }
 
 bool FarmMaster::has_work() const {
-  return next_ < todo_.size() && !stopping_ && seconds() < options_.total_time_limit_s;
+  return assignments_.any_waiting() && !stopping_ && seconds() < options_.total_time_limit_s;
 }
 
 void FarmMaster::answer() {
@@ -121,20 +117,19 @@ void FarmMaster::answer() {
 }
 
 void FarmMaster::assign_next(int leader) {
-  const std::size_t run = todo_[next_++];
-  const Entry& entry = entries_[run];
-  table_.mark_started(runs_[run]);
-  under_way_[leader] = {entry.id, seconds()};
-  send(leader, Assignment{entry});
+  const std::size_t run = assignments_.start(leader, seconds());
+  table_.mark_started(assignments_.runs()[run]);
+  send(leader, Assignment{assignments_.entry(run)});
 }
 
 BatchState FarmMaster::state() const {
+  const auto& in_progress = assignments_.in_progress();
   BatchState state = state_;
   state.elapsed_s = seconds();
   state.closes_in_s = std::max(0.0, options_.total_time_limit_s - state.elapsed_s);
-  state.under_way = static_cast<int>(under_way_.size());
-  for (const auto& [leader, what] : under_way_) state.under_way_s += state.elapsed_s - what.since;
-  state.ending = next_ < todo_.size() && !has_work();
+  state.under_way = static_cast<int>(in_progress.size());
+  for (const auto& [leader, what] : in_progress) state.under_way_s += state.elapsed_s - what.since;
+  state.ending = assignments_.any_waiting() && !has_work();
   return state;
 }
 

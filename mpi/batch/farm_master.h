@@ -6,7 +6,6 @@
 #include <deque>
 #include <functional>
 #include <limits>
-#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -14,6 +13,8 @@
 #include "batch/batch_clock.h"
 #include "batch/entry.h"
 #include "batch/result_table.h"
+#include "batch/table_writer.h"
+#include "mpi/batch/assignments.h"
 #include "mpi/batch/batch_progress.h"
 #include "mpi/batch/farm_messages.h"
 #include "mpi/transport.h"
@@ -58,7 +59,7 @@ class FarmMaster {
   void poll();
   // True if the master has sent NoMoreWork to every group and the table is complete. poll() is then
   // no longer needed.
-  bool done() const { return dismissed_ == grouping_.groups(); }
+  bool done() const { return dismissed_ == state_.groups; }
 
   BatchState state() const;
   // True if the batch was interrupted.
@@ -70,45 +71,35 @@ class FarmMaster {
   std::optional<FarmMessage> take_own_message();
 
  private:
-  struct UnderWay {
-    std::string id;
-    double since;
-  };
-
   void on(int from, RequestWork&);
   void on(int from, Report& report);
   void on(int from, Aborted&);
   template <typename Other>
   void on(int from, Other&);
 
-  void end_assignment(int leader, const std::string* id);
   void send(int leader, FarmMessage message);
   void stop_if_interrupted();
   void record();
+  void check_runs() const;
   void answer();
   bool has_work() const;
   void assign_next(int leader);
   double seconds() const { return clock_.seconds() - start_; }
 
   Transport& world_;
-  const Grouping grouping_;
   ResultTable& table_;
   std::atomic<bool>& interrupted_;
   const BatchClock clock_;
   const MasterOptions options_;
   const double start_;
-  const std::vector<Entry> entries_;
-  const std::vector<Run> runs_;          // runs of entries_
-  const std::vector<std::size_t> todo_;  // indices into runs_
-  std::size_t next_ = 0;                 // index into todo_
-  std::map<int, UnderWay> under_way_;    // by leader
-  std::vector<Row> finished_;            // rows not yet on disk
-  std::deque<int> asking_;               // leaders that wait for an assignment
-  std::deque<FarmMessage> own_;          // messages for the leader on this rank
-  BatchState state_;                     // without the fields that state() sets
+  Assignments assignments_;
+  TableWriter writer_;
+  std::vector<Row> finished_;    // rows not yet on disk
+  std::deque<int> asking_;       // leaders that wait for an assignment
+  std::deque<FarmMessage> own_;  // messages for the leader on this rank
+  BatchState state_;             // without the fields that state() sets
   bool stopping_ = false;
   int dismissed_ = 0;
-  double next_csv_s_ = 0;
 };
 
 }  // namespace grove::detail::batch

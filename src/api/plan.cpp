@@ -11,6 +11,7 @@
 #include "api/access.h"
 #include "io/plan_file.h"
 #include "io/plan_import.h"
+#include "model/assert.h"
 #include "model/check.h"
 
 namespace grove {
@@ -83,6 +84,8 @@ detail::Plan plan_of(const detail::Instance& instance, const Plan& plan) {
     for (const Work& work : agent.work)
       own.work.push_back({task_of(tasks, work.task, field + "/work"), work.begin, work.end});
   }
+  GROVE_CHECK(std::ssize(made.agents) == instance.agent_count(),
+              "a converted plan has a path of each agent");
   return made;
 }
 
@@ -98,6 +101,8 @@ detail::Plan valid_plan_of(const detail::Instance& instance, const Plan& plan,
 }
 
 Plan public_plan(const detail::Instance& instance, const detail::Plan& plan) {
+  GROVE_CHECK(std::ssize(plan.agents) == instance.agent_count(),
+              "a plan has a path of each agent of its instance");
   Plan to_public{.cost = plan.cost, .agents = {}};
   for (detail::AgentIndex i = 0; i < static_cast<int>(plan.agents.size()); ++i) {
     const detail::AgentPlan& own = plan.agents[i];
@@ -110,6 +115,9 @@ Plan public_plan(const detail::Instance& instance, const detail::Plan& plan) {
     for (const detail::TaskIndex task : own.sequence) agent.tasks.push_back(instance.task(task).id);
     for (const detail::WorkTime& work : own.work)
       agent.work.push_back({instance.task(work.task).id, work.begin, work.end});
+    GROVE_CHECK(agent.path.size() == own.path.size() && agent.tasks.size() == own.sequence.size() &&
+                    agent.work.size() == own.work.size(),
+                "the public path of an agent has all its poses and tasks");
   }
   return to_public;
 }
@@ -138,6 +146,8 @@ Solution public_solution(const detail::Instance& instance, const detail::Solutio
   to_public.counts = solution.stats.counts;
   to_public.measures = solution.stats.measures;
   to_public.texts = solution.stats.texts;
+  GROVE_CHECK(to_string(to_public.status) == detail::to_string(solution.status),
+              "the public status is the same as the internal one");
   return to_public;
 }
 

@@ -8,6 +8,7 @@
 
 #include "batch/entry.h"
 #include "io/input_error.h"
+#include "model/assert.h"
 
 namespace grove::detail::batch {
 namespace {
@@ -42,6 +43,11 @@ std::string id_of(const fs::path& path, const fs::path& folder, int agents) {
     inside = (in == ".." ? fs::path() : in) / seen.filename();
   }
   return without_suffix(inside.generic_string()) + (agents > 0 ? fmt::format("-{}", agents) : "");
+}
+
+std::vector<Entry> EntryCollector::take() {
+  GROVE_CHECK(ids_.size() == entries_.size(), "each entry has an id of its own");
+  return std::move(entries_);
 }
 
 void EntryCollector::add(Entry entry, const std::string& place) {

@@ -32,7 +32,7 @@ class EntryCollector {
   // line of a manifest, or a file in a folder. Throws InputError if the id is unsuitable as a file
   // name, or if the instance or its id is already present.
   void add(Entry entry, const std::string& place);
-  std::vector<Entry> take() { return std::move(entries_); }
+  std::vector<Entry> take();
 
  private:
   using Places = std::map<std::string, std::string>;

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "io/input_error.h"
+#include "model/assert.h"
 #include "model/check.h"
 #include "model/parse_number.h"
 
@@ -67,6 +68,8 @@ Outcome outcome_of(const Instance& instance, const Solution& solution) {
   outcome.status = to_string(solution.status);
   outcome.solved = solution.plan.has_value() && outcome.error.empty();
   if (solution.status != Status::kInfeasible) outcome.lower_bound = solution.lower_bound;
+  GROVE_CHECK(!outcome.cost || !outcome.lower_bound || *outcome.lower_bound <= *outcome.cost,
+              "the lower bound of a checked plan is at most its cost");
   return outcome;
 }
 
@@ -75,6 +78,9 @@ void thin_out(std::vector<TracePoint>& trace, std::size_t max_count) {
     std::vector<TracePoint> kept;
     for (std::size_t i = 0; i < trace.size(); ++i)
       if (i % 2 == 0 || i + 1 == trace.size()) kept.push_back(trace[i]);
+    GROVE_CHECK(
+        kept.front() == trace.front() && kept.back() == trace.back() && kept.size() < trace.size(),
+        "a thinner trace keeps the first and the last point");
     trace = std::move(kept);
   }
 }

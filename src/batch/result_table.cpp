@@ -13,6 +13,7 @@
 #include "io/atomic_file.h"
 #include "io/input_error.h"
 #include "io/text_file.h"
+#include "model/assert.h"
 
 namespace grove::detail::batch {
 
@@ -122,6 +123,7 @@ bool ResultTable::is_valid_result(const Run& run) const {
 }
 
 std::vector<std::size_t> ResultTable::begin(const std::vector<Run>& runs) {
+  GROVE_CHECK(!lines_, "begin() is called once");
   std::vector<std::size_t> left;
   std::vector<Pair> pairs;
   if (kind_ == TableOf::kPlans && !runs.empty())
@@ -133,6 +135,8 @@ std::vector<std::size_t> ResultTable::begin(const std::vector<Run>& runs) {
     pairs.push_back(pair_of(runs[i]));
   }
   erase_rows_of(pairs);
+  GROVE_CHECK(std::ranges::none_of(left, [&](std::size_t run) { return find(runs[run]); }),
+              "no run that is to do has a row");
   defer_started_runs(left, runs);
   return left;
 }
@@ -149,6 +153,7 @@ void ResultTable::erase_rows_of(const std::vector<Pair>& pairs) {
       !has_incomplete_line_ && kept.size() == rows_.size() && fs::exists(file());
   rows_ = std::move(kept);
   index_rows();
+  GROVE_CHECK(index_.size() == rows_.size(), "a pair has at most one row");
   if (!as_in_file) {
     std::string text;
     for (const Row& row : rows_) text += json_line(row) + "\n";
@@ -179,6 +184,7 @@ void ResultTable::mark_started(const Run& run) {
 }
 
 void ResultTable::append(std::span<const Row> rows) {
+  GROVE_CHECK(lines_, "rows are appended after begin()");
   std::string text;
   for (const Row& row : rows) {
     if (!index_.emplace(pair_of(row.run), rows_.size()).second)
@@ -187,6 +193,7 @@ void ResultTable::append(std::span<const Row> rows) {
     rows_.push_back(row);
     text += json_line(row) + "\n";
   }
+  GROVE_CHECK(index_.size() == rows_.size(), "each row has its place in the index");
   lines_->append(text);
 }
 

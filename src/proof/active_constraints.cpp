@@ -7,6 +7,7 @@
 // lemma that the proof may name has a constraint on such an agent.)
 #include "proof/active_constraints.h"
 
+#include "model/assert.h"
 #include "model/hash.h"
 
 namespace grove::detail {
@@ -75,6 +76,7 @@ void ActiveConstraints::count(const CertificateConstraint& side, int more) {
 
 void ActiveConstraints::count_one(const CertificateConstraint& constraint, int more) {
   const auto found = counts_.try_emplace(constraint, 0).first;
+  GROVE_CHECK(found->second + more >= 0, "a side is undone only after it was assumed");
   if ((found->second += more) == 0) counts_.erase(found);
 }
 

@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "conflicts/conflict.h"
+#include "model/assert.h"
 #include "model/instance.h"
 #include "model/omega.h"
 #include "planning/constraint.h"
@@ -150,7 +151,10 @@ class LemmaWriter : public ProofLog {
   void prices(Cost /*bound*/, std::span<const RowMultiplier> /*rows*/) override {}
   void joint(Cost /*bound*/) override {}
 
-  std::int64_t number(ProofKey key) const { return numbers_.at(key); }
+  std::int64_t number(ProofKey key) const {
+    GROVE_CHECK(numbers_.contains(key), "a lemma is written before it is named");
+    return numbers_.at(key);
+  }
   std::int64_t count() const { return std::ssize(numbers_); }
 
  private:
@@ -215,6 +219,8 @@ class CertificateBuilder {
     output.line(instance_.may_follow() ? "following yes" : "following no");
     LemmaWriter lemmas(instance_, choosing.needed, output);
     for (const auto& part : parts_) read_proof_part(part, lemmas);
+    GROVE_CHECK(lemmas.count() == std::ssize(choosing.needed),
+                "all needed lemmas are written once");
     output.line("theorem " + proof_text(made_.bound));
     TreeWriter writing(instance_, lemmas, output, made_);
     if (by_trees)
@@ -223,6 +229,8 @@ class CertificateBuilder {
       write_prices(output);
     else
       write_joint(output);
+    GROVE_CHECK(!by_trees || made_.leaves == made_.splits + 1,
+                "a proof by trees has one leaf more than splits");
     output.line("end");
     made_.lemmas = lemmas.count();
     made_.bytes = output.commit();

@@ -40,6 +40,7 @@
 #include <vector>
 
 #include "io/input_error.h"
+#include "model/assert.h"
 #include "model/limits.h"
 #include "proof/active_constraints.h"
 #include "proof/certificate_file.h"
@@ -81,6 +82,7 @@ class DecidingPass : public KeptParts {
     is_theorem_ = true;
   }
   void proven() override {
+    GROVE_CHECK(levels_.empty(), "a proof ends after all its splits");
     if (is_theorem_) return;
     Constraints& all = statement_.constraints;
     std::ranges::sort(all);
@@ -216,7 +218,10 @@ class NamingPass : public LaterPass {
   std::vector<bool> needed() && {
     for (std::size_t lemma = needed_.size(); lemma-- > 0;)
       if (needed_[lemma])
-        for (const LemmaNumber name : names_[lemma]) needed_[name] = true;
+        for (const LemmaNumber name : names_[lemma]) {
+          GROVE_CHECK(static_cast<std::size_t>(name) < lemma, "a lemma names only earlier lemmas");
+          needed_[name] = true;
+        }
     return std::move(needed_);
   }
 
@@ -265,6 +270,10 @@ class WritingPass : public LaterPass {
   void constraint(const CertificateConstraint& of_lemma) override {
     if (std::erase(constraints_, of_lemma) > 0) put(text_);
   }
+  void proven() override {
+    GROVE_CHECK(constraints_.empty(), "all constraints of a lemma are written");
+    LaterPass::proven();
+  }
   void end() override { put(text_); }
 
  private:
@@ -279,13 +288,18 @@ class WritingPass : public LaterPass {
   }
   void kept_split(const Fork& fork) override {
     if (!fork.lemma) return put(text_);
+    GROVE_CHECK(!is_needed_ || needed_[named(*fork.lemma)], "a split that is kept keeps its lemma");
     const auto& [one, other] = fork.sides;
     put(fmt::format("later {} {} {} {} {}", one.agent, one.end, other.agent, other.end,
                     numbers_[named(*fork.lemma)]));
   }
   void leaf_of(const std::vector<LemmaNumber>& names) override {
     std::string line = "leaf";
-    for (const LemmaNumber name : names) line += fmt::format(" {}", numbers_[name]);
+    for (const LemmaNumber name : names) {
+      GROVE_CHECK(!is_needed_ || needed_[name],
+                  "a line that is kept names only lemmas that are kept");
+      line += fmt::format(" {}", numbers_[name]);
+    }
     put(line);
   }
   void kept_joint() override { put(text_); }
@@ -344,6 +358,7 @@ TrimmedCertificate trim_certificate(const fs::path& from, const fs::path& to, st
   CertificateOutput output(to, is_compressed);
   WritingPass writing(lemmas, deciding.keeps, needed, output);
   walk(from, writing, limits);
+  GROVE_CHECK(writing.lines <= deciding.lines, "trimming adds no line");
   trimmed.after.lines = writing.lines;
   trimmed.after.bytes = output.commit();
   return trimmed;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "proof/kept_parts.h"
 
+#include "model/assert.h"
 #include "proof/active_constraints.h"
 
 namespace grove::detail {
@@ -47,6 +48,8 @@ void KeptParts::open(const Fork& fork) {
 }
 
 void KeptParts::begin(int which) {
+  GROVE_CHECK(!is_skipping() && levels_.back().has_first == (which == 1),
+              "the sides of a split are visited in their order");
   if (levels_.back().keep == (which == 0 ? Keep::kSecond : Keep::kFirst))
     skipped_depth_ = 1;
   else

@@ -15,6 +15,7 @@
 #include <tuple>
 #include <utility>
 
+#include "model/assert.h"
 #include "proof/proof_records.h"
 
 namespace grove::detail {
@@ -35,6 +36,8 @@ bool LemmaTable::Before::operator()(LemmaNumber a, LemmaNumber b) const {
 }
 
 void LemmaTable::add(TableLemma lemma) {
+  GROVE_CHECK(std::ranges::is_sorted(lemma.constraints),
+              "the constraints of a lemma are in ascending order");
   const auto number = static_cast<LemmaNumber>(lemmas_.size());
   lemma.same_as = number;
   lemmas_.push_back(std::move(lemma));
@@ -73,6 +76,7 @@ LemmaTable::Leaf LemmaTable::leaf(std::span<const LemmaNumber> named, Cost bound
   std::erase_if(leaf.names, [&](LemmaNumber weaker) {
     return std::ranges::any_of(all, [&](LemmaNumber one) { return implies(one, weaker); });
   });
+  GROVE_CHECK(all.empty() || !leaf.names.empty(), "lemmas do not all imply each other");
   return leaf;
 }
 
@@ -84,6 +88,9 @@ std::vector<LemmaNumber> LemmaTable::worth_naming(std::span<const LemmaNumber> n
     if (lemmas_[name].bound > 0) names.push_back(lemmas_[name].same_as);
   std::ranges::sort(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());
+  GROVE_ASSERT(
+      std::ranges::all_of(names, [&](LemmaNumber name) { return lemmas_[name].same_as == name; }),
+      "a leaf names the lemma that implies all others with the same statement");
   return names;
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 
 Cost ProofForest::value(Cost claimed) {
@@ -31,7 +33,18 @@ void ProofForest::visit(const Trees& trees, std::size_t agent, std::size_t numbe
     ++agent;
     number = 0;
   }
-  if (agent == sequences.size()) return visit(*trees.front(), visitor);
+  GROVE_ASSERT(std::ranges::all_of(trees,
+                                   [&](const ProofTree* tree) {
+                                     return std::equal(tree->sequences.begin(),
+                                                       tree->sequences.begin() +
+                                                           static_cast<std::ptrdiff_t>(agent),
+                                                       sequences.begin());
+                                   }),
+               "the trees of a subproof agree on the agents before");
+  if (agent == sequences.size()) {
+    GROVE_CHECK(trees.size() == 1, "no two trees have the same joint sequence");
+    return visit(*trees.front(), visitor);
+  }
   const Stop stop = sequences[agent][number];
   const auto constraint = [&](ConstraintKind kind) {
     const auto at = static_cast<Time>(number);

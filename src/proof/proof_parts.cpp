@@ -7,12 +7,14 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <mutex>
 #include <string_view>
 #include <utility>
 
 #include "io/file_descriptor.h"
 #include "io/input_error.h"
+#include "model/assert.h"
 #include "proof/zstd_stream.h"
 
 namespace grove::detail {
@@ -223,6 +225,9 @@ void ProofRecorder::tree(const ProofTree& tree) {
 }
 
 void ProofRecorder::split(const ProofSplit& split) {
+  GROVE_CHECK(split.split[0] != split.split[1], "the two sides of a split differ");
+  GROVE_CHECK(!splits_on_costs(split.split) || split.lemma != kNoProof,
+              "a split on costs names its lemma");
   Numbers numbers;
   add(numbers, split);
   stream_->add(kSplit, numbers);
@@ -230,8 +235,11 @@ void ProofRecorder::split(const ProofSplit& split) {
 
 void ProofRecorder::bound(ProofKey node, Cost cost, Cost bound,
                           std::span<const ProofExcess> excesses) {
+  GROVE_CHECK(bound >= cost, "a logged bound is at least the cost of its node");
   Numbers numbers{number(node), cost, bound};
   for (const ProofExcess& excess : excesses) {
+    GROVE_CHECK(excess.excess > 0 && std::ranges::is_sorted(excess.agents),
+                "a logged excess is positive, with its agents in ascending order");
     numbers.insert(numbers.end(), {number(excess.lemma), excess.excess, std::ssize(excess.agents)});
     numbers.insert(numbers.end(), excess.agents.begin(), excess.agents.end());
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "model/assert.h"
 #include "search/covering.h"
 
 namespace grove::detail {
@@ -56,11 +57,14 @@ Cost covered(std::span<const ProofExcess> excesses, std::int64_t steps) {
 }
 
 void remove_redundant(std::vector<ProofExcess>& excesses, Cost wanted, std::int64_t steps) {
-  for (std::size_t i = excesses.size(); i-- > 0;) {
+  const std::size_t before = excesses.size();
+  for (std::size_t i = before; i-- > 0;) {
     std::vector<ProofExcess> rest = excesses;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
     if (covered(rest, steps) >= wanted) excesses = std::move(rest);
   }
+  GROVE_ASSERT(excesses.size() == before || covered(excesses, steps) >= wanted,
+               "the excesses that remain suffice");
 }
 
 }  // namespace grove::detail

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 
 Cost SplitTree::value(ProofKey root, Cost cost) {
@@ -25,6 +27,13 @@ Cost SplitTree::value(ProofKey root, Cost cost) {
       for (int i = 0; i < 2; ++i) steps.push_back({sides[i], entry.split->costs[i], false});
       continue;
     }
+    GROVE_ASSERT(!entry.split || std::ranges::all_of(sides_of(*entry.split),
+                                                     [&](ProofKey side) {
+                                                       const auto it = entries_.find(side);
+                                                       return it == entries_.end() ||
+                                                              it->second.value.has_value();
+                                                     }),
+                 "both sides of a split have their values before the node");
     entry.value = std::max({entry.cost, entry.bound, entry.split ? of_sides(entry) : 0});
   }
   return value_of(root, cost);

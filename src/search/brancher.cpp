@@ -31,6 +31,7 @@
 #include <array>
 #include <utility>
 
+#include "model/assert.h"
 #include "search/audit.h"
 #include "search/splits.h"
 
@@ -161,6 +162,10 @@ bool Brancher::evaluate_branch(const Task& task, const AgentConstraint& constrai
     side.conflicts -= avoidance_table_.conflicts_of(task.view.path(agent));
   }
   const bool done = replan(task, constraint, side);
+  GROVE_ASSERT(!done || !side.open || side.paths.size() == side.agents.size(),
+               "an open branch has a new path for each agent that it affects");
+  GROVE_ASSERT(!done || !side.open || (side.increase >= 0 && side.increase <= task.slack),
+               "the cost of an open branch rises by at most the slack");
   for (const Path& path : side.paths) avoidance_table_.remove(path);
   for (AgentIndex agent : side.agents) avoidance_table_.add(task.view.path(agent));
   return done;
@@ -172,6 +177,11 @@ bool Brancher::replan(const Task& task, const AgentConstraint& constraint, Branc
     if (!replan_one(task, agent, *constraint_on(agent, constraint), cutoff, side.open))
       return false;
     if (!side.open) return true;
+    GROVE_ASSERT(static_cast<Time>(path_.size()) - 1 >= task.view.cost_of(agent),
+                 "no new path of an agent costs less than its path at the node");
+    GROVE_ASSERT(satisfies(problem_.instance.world(), path_, *constraint_on(agent, constraint),
+                           problem_.corridors),
+                 "a new path satisfies the constraint of its branch");
     side.increase += static_cast<Cost>(path_.size()) - 1 - task.view.cost_of(agent);
     side.conflicts += avoidance_table_.conflicts_of(path_);
     avoidance_table_.add(path_);
@@ -230,6 +240,8 @@ NodePtr Brancher::child(const NodeView& view, const NodePtr& parent,
   change.cost = view.node()->cost() + side.increase;
   const int conflicts = static_cast<int>(view.conflicts().size()) + side.conflicts;
   change.conflicts = static_cast<std::uint32_t>(std::max(0, conflicts));
+  GROVE_ASSERT(parent->cost() == view.node()->cost() && change.cost >= parent->cost(),
+               "a child costs at least as much as its parent");
   return Node::child(parent, change);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "search/child_costs.h"
 
+#include "model/assert.h"
+
 namespace grove::detail {
 
 // The label limit is needed because cells that are forbidden forever act as time windows. With
@@ -15,11 +17,13 @@ ChildCosts::Outcome ChildCosts::increase(NodeView& view, const AgentConstraint& 
     const Outcome outcome =
         cost(view, agent, *constraint_on(agent, constraint), cutoff, label_limit_, limits, least);
     if (outcome != Outcome::kDone) return outcome;
+    GROVE_ASSERT(least >= view.cost_of(agent), "a constraint lowers the cost of no agent");
     if (least > cutoff) {
       increase = kInfiniteCost;
       break;
     }
     increase += least - view.cost_of(agent);
+    GROVE_ASSERT(increase <= slack, "an increase within the cutoffs of the agents is in the slack");
   }
   return Outcome::kDone;
 }
@@ -30,6 +34,7 @@ ChildCosts::Outcome ChildCosts::cost(NodeView& view, AgentIndex agent, const Con
   const auto constraints = view.constraints_with(agent, more);
   const SubproblemTable::Id id = memory_.id(agent, view.order(agent), constraints);
   SubproblemTable::CostBound known = memory_.known(id);
+  const Time known_before = known.lower_bound;
   ++asked_;
   if (known.exact || known.lower_bound > cutoff) {
     ++known_;
@@ -51,6 +56,9 @@ ChildCosts::Outcome ChildCosts::cost(NodeView& view, AgentIndex agent, const Con
         known.was_aborted = true;
         break;
     }
+    GROVE_ASSERT(known.lower_bound >= known_before, "a search finds no cost below a known bound");
+    GROVE_ASSERT(!known.exact || known.lower_bound <= cutoff || known.lower_bound == kNever,
+                 "a path that was found costs at most the cutoff");
     memory_.merge(id, known);
     if (known.was_aborted) return Outcome::kTooHard;
   }

@@ -20,6 +20,7 @@
 #include <functional>
 #include <numeric>
 
+#include "model/assert.h"
 #include "model/omega.h"
 
 namespace grove::detail {
@@ -44,15 +45,31 @@ class Component {
         steps_(steps),
         limits_(limits) {
     std::ranges::sort(statements_, std::greater(), &Statement::due);
+    GROVE_ASSERT(
+        statements_.back().due > 0 &&
+            std::ranges::none_of(statements_, [](const Statement& s) { return s.agents.empty(); }),
+        "a statement gives some agents a positive excess");
   }
 
   Cost solve() {
+    const Cost total = due();
     Cost sum = greedy();
     while (sum <= kMaxCoveringCost && !fulfil(sum) && steps_ > 0) ++sum;
+    GROVE_ASSERT(due() == total && std::ranges::count(frozen_, 0) == std::ssize(frozen_),
+                 "the search for a covering restores all statements and agents");
+    GROVE_ASSERT(sum >= statements_.front().due && sum <= total,
+                 "a covering costs at least the largest excess and at most the sum of all");
     return sum;
   }
 
  private:
+  // The sum of what is not fulfilled.
+  Cost due() const {
+    Cost sum = 0;
+    for (const Statement& s : statements_) sum = std::min(sum + s.due, kInfiniteCost);
+    return sum;
+  }
+
   Cost greedy() {
     std::fill(used_.begin(), used_.end(), false);
     Cost sum = 0;

@@ -28,6 +28,8 @@ std::array<std::size_t, 2> DependencyTable::rarest_two(const std::vector<Id>& su
     members.emplace_back(subproblems_.constraint_bytes(subproblems[place]), subproblems[place],
                          place);
   std::ranges::partial_sort(members, members.begin() + 2, std::greater());
+  GROVE_ASSERT(std::ranges::max(members) == members[0] && members[1] < members[0],
+               "the rarest subproblem has the longest constraints");
   return {std::get<2>(members[0]), std::get<2>(members[1])};
 }
 
@@ -71,6 +73,7 @@ DependencyTable::ExcessBound DependencyTable::of_pair(Id first, Id second) const
 }
 
 bool DependencyTable::merge_pair(Id first, Id second, AgentIndex agent, ExcessBound known) {
+  GROVE_ASSERT(first != second, "the subproblems of two agents differ");
   return merge(first, [&](Part& part) {
     HashIndex::Number at = part.find(first, second);
     const bool is_new = at == HashIndex::kNone;
@@ -81,6 +84,12 @@ bool DependencyTable::merge_pair(Id first, Id second, AgentIndex agent, ExcessBo
     }
     const ExcessBound before = part.pairs[at].known;
     const ExcessBound now = part.pairs[at].known = join(before, known);
+    GROVE_ASSERT(part.pairs[at].first == first && part.pairs[at].second == second,
+                 "the entry found is of the pair asked for");
+    GROVE_ASSERT(now.excess >= before.excess && now.exact >= before.exact,
+                 "a known excess only gets stronger");
+    GROVE_ASSERT(now.excess == before.excess || !before.exact, "no excess exceeds an exact one");
+    GROVE_ASSERT(now.excess == known.excess || !known.exact, "no excess exceeds an exact one");
     if (known.excess > 0) part.list({agent, second, now.excess}, first);
     return is_new || now != before;
   });
@@ -92,6 +101,7 @@ void DependencyTable::Part::list(const Partner& partner, Id first) {
     return p.agent == partner.agent && p.subproblem == partner.subproblem;
   });
   if (known != listed.end()) {
+    GROVE_ASSERT(partner.excess >= known->excess, "the excess of a partner never falls");
     known->excess = partner.excess;
     return;
   }
@@ -136,10 +146,17 @@ bool DependencyTable::merge_group(const std::vector<AgentIndex>& agents,
       const auto number = static_cast<std::int32_t>(part.all_groups.size());
       part.all_groups.push_back({agents, subproblems, known});
       part.groups.at(under).push_back({agents[next], subproblems[next], number});
+      GROVE_ASSERT(part.find_group(under, subproblems[next], subproblems) == number,
+                   "a group that was added is found");
       return true;
     }
     ExcessBound& now = part.all_groups[found].known;
     const ExcessBound before = std::exchange(now, join(now, known));
+    GROVE_ASSERT(part.all_groups[found].agents == agents,
+                 "groups with the same subproblems have the same agents");
+    GROVE_ASSERT((now.excess == before.excess || !before.exact) &&
+                     (now.excess == known.excess || !known.exact),
+                 "no excess of a group exceeds an exact one");
     return now != before;
   });
 }

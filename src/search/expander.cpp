@@ -9,6 +9,7 @@
 #include <array>
 #include <numeric>
 
+#include "model/assert.h"
 #include "model/effort.h"
 
 namespace grove::detail {
@@ -101,6 +102,8 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
       case WdgHeuristic::Outcome::kDone:
         break;
     }
+    GROVE_CHECK(bound == cutoff || (bound >= node->cost() && bound < cutoff),
+                "a node's bound is the cutoff, or from its cost to the cutoff");
     if (bound >= cutoff) return expansion;
     if (bound > node->bound()) {
       NodeDelta change;
@@ -135,8 +138,13 @@ void Expander::log_proof(const Branching& branching, const NodePtr& node,
                          std::span<const NodePtr> children, Cost cutoff) {
   const Split& split = branching.split;
   ProofSplit written{proof_key(*node), split, {cutoff, cutoff}};
-  for (const NodePtr& child : children)
+  for (const NodePtr& child : children) {
+    GROVE_CHECK(child->added() == split[0] || child->added() == split[1],
+                "a child adds one side of the split");
     written.costs[child->added() == split[0] ? 0 : 1] = child->cost();
+  }
+  GROVE_CHECK(std::ranges::min(written.costs) >= node->cost(),
+              "neither side of a split costs less than the node");
   if (splits_on_costs(split)) written.lemma = dependencies_.lemma_key(view_, split);
   proof_->split(written);
 }
@@ -156,6 +164,7 @@ Plan Expander::plan(const Node& node) {
     plan.agents.push_back(agent_plan(problem_.instance, i, sequence, path));
     plan.cost += plan.agents.back().cost;
   }
+  GROVE_CHECK(plan.cost == node.cost(), "the plan of a node has the node's cost");
   return plan;
 }
 

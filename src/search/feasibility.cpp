@@ -27,6 +27,7 @@
 #include <map>
 #include <vector>
 
+#include "model/assert.h"
 #include "search/pebble_motion.h"
 
 namespace grove::detail {
@@ -91,7 +92,14 @@ class RestingMatching {
 
   bool place(AgentIndex agent) {
     tried_.clear();
-    return augment(agent);
+    const bool is_placed = augment(agent);
+    GROVE_ASSERT(std::ranges::all_of(holder_,
+                                     [&](const auto& held) {
+                                       return std::ranges::count(holder_, held.second,
+                                                                 &Holders::value_type::second) == 1;
+                                     }),
+                 "each agent rests on one cell");
+    return is_placed;
   }
 
  private:
@@ -112,7 +120,8 @@ class RestingMatching {
   }
 
   const Instance& instance_;
-  std::map<Cell, AgentIndex> holder_;
+  using Holders = std::map<Cell, AgentIndex>;
+  Holders holder_;
   std::map<Cell, bool> tried_;
 };
 

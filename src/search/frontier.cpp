@@ -25,6 +25,25 @@
 #include "model/assert.h"
 
 namespace grove::detail {
+namespace {
+
+// True if the levels, which map a bound to its open nodes, hold `count` nodes, and none is empty.
+bool hold(const auto& levels, std::size_t count) {
+  std::size_t sum = 0;
+  for (const auto& [bound, nodes] : levels) {
+    if (nodes.empty()) return false;
+    sum += nodes.size();
+  }
+  return sum == count;
+}
+
+std::size_t sum_of(const std::map<Cost, std::size_t>& counts) {
+  std::size_t sum = 0;
+  for (const auto& [bound, count] : counts) sum += count;
+  return sum;
+}
+
+}  // namespace
 
 void Frontier::push(NodePtr node) {
   const std::lock_guard lock(mutex_);
@@ -51,6 +70,8 @@ void Frontier::push_locked(NodePtr node) {
     throw;
   }
   std::ranges::push_heap(heap->second, order_in(at));
+  GROVE_ASSERT(!order_in(at)(heap->second.front(), heap->second.back()),
+               "the first node of a heap is its best");
   ++open_count_;
 }
 
@@ -77,6 +98,8 @@ NodePtr Frontier::take_locked(std::map<Cost, std::vector<Open>>::iterator best) 
   in_progress_.reserve(in_progress_.size() + 1);
   std::size_t& taken = taken_[best->first];  // nothing has changed if this throws
   std::ranges::pop_heap(best->second, order_in(best->first));
+  GROVE_ASSERT(!order_in(best->first)(best->second.back(), best->second.front()),
+               "no node of its bound is better than the one taken");
   NodePtr node = std::move(best->second.back().node);
   best->second.pop_back();
   if (best->second.empty()) open_.erase(best);
@@ -91,6 +114,7 @@ NodePtr Frontier::take_locked(std::map<Cost, std::vector<Open>>::iterator best) 
 std::vector<NodePtr> Frontier::take_for_transfer(std::size_t count, bool keeps_next) {
   const std::lock_guard lock(mutex_);
   std::vector<NodePtr> spare;
+  const Node* const next = open_.empty() ? nullptr : open_.begin()->second.front().node.get();
   spare.reserve(std::min(count, open_count_));
   in_progress_.reserve(in_progress_.size() + std::min(count, open_count_));
   for (auto& [rank, heap] : open_) {
@@ -106,6 +130,13 @@ std::vector<NodePtr> Frontier::take_for_transfer(std::size_t count, bool keeps_n
     if (spare.size() == count) break;
   }
   std::erase_if(open_, [](const auto& level) { return level.second.empty(); });
+  GROVE_ASSERT(hold(open_, open_count_), "the count of open nodes is that of all levels");
+  GROVE_ASSERT(
+      spare.size() <= count &&
+          std::ranges::is_sorted(spare, {}, [&](const NodePtr& node) { return rank(node); }),
+      "nodes are taken for transfer in order of their bounds, at most as many as asked");
+  GROVE_ASSERT(!keeps_next || !next || open_.begin()->second.front().node.get() == next,
+               "the node that take() would return is kept");
   return spare;
 }
 
@@ -127,6 +158,7 @@ void Frontier::release_locked(const NodePtr& node) {
   if (--it->second == 0) taken_.erase(it);
   std::swap(*std::ranges::find(in_progress_, node), in_progress_.back());
   in_progress_.pop_back();
+  GROVE_ASSERT(sum_of(taken_) == in_progress_.size(), "each taken node is counted once");
 }
 
 std::size_t Frontier::prune(Cost bound) {
@@ -135,6 +167,9 @@ std::size_t Frontier::prune(Cost bound) {
   for (auto it = open_.lower_bound(bound); it != open_.end(); it = open_.erase(it))
     pruned += it->second.size();
   open_count_ -= pruned;
+  GROVE_ASSERT(open_.empty() || open_.rbegin()->first < bound,
+               "no node that the incumbent prunes stays open");
+  GROVE_ASSERT(hold(open_, open_count_), "the count of open nodes is that of all levels");
   if (evicted_bound_ >= bound) evicted_bound_ = kInfiniteCost;
   return pruned;
 }
@@ -160,6 +195,14 @@ std::vector<NodePtr> Frontier::evict(std::size_t count, std::size_t keep) {
     if (heap.empty()) open_.erase(worst);
   }
   open_count_ -= evicted.size();
+  GROVE_ASSERT(evicted.size() == count && hold(open_, open_count_),
+               "as many nodes are evicted as asked, and the others stay open");
+  GROVE_ASSERT(std::ranges::all_of(evicted,
+                                   [&](const NodePtr& node) {
+                                     return rank(node) >= evicted_bound_ &&
+                                            (open_.empty() || rank(node) >= open_.rbegin()->first);
+                                   }),
+               "evicted nodes are the worst ones, and the evicted bound covers them");
   return evicted;
 }
 
@@ -172,6 +215,7 @@ Cost Frontier::evicted_bound() const {
 void Frontier::restart(std::span<const NodePtr> roots, Cost proven) {
   const std::lock_guard lock(mutex_);
   GROVE_ASSERT(open_.empty() && taken_.empty(), "a restart requires that no node is live");
+  GROVE_ASSERT(proven >= proven_, "a restart lowers no proven bound");
   proven_ = proven;
   for (const NodePtr& root : roots) push_locked(root);
   evicted_bound_ = kInfiniteCost;
@@ -193,6 +237,8 @@ Frontier::Snapshot Frontier::snapshot() const {
   snapshot.live.reserve(in_progress_.size() + open_count_);
   for (const auto& [bound, heap] : open_)
     for (const Open& open : heap) snapshot.live.push_back(open.node);
+  GROVE_ASSERT(snapshot.live.size() == open_count_ + in_progress_.size(),
+               "a snapshot has all live nodes");
   return snapshot;
 }
 
@@ -205,6 +251,8 @@ Cost Frontier::bound() const {
   const std::lock_guard lock(mutex_);
   const Cost open = open_.empty() ? kInfiniteCost : open_.begin()->first;
   const Cost taken = taken_.empty() ? kInfiniteCost : taken_.begin()->first;
+  GROVE_ASSERT(open >= proven_ && taken >= proven_,
+               "after a restart no live node counts with less than the proven bound");
   return std::min({open, taken, evicted_bound_});
 }
 

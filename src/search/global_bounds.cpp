@@ -31,6 +31,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/assert.h"
 #include "model/check.h"
 
 namespace grove::detail {
@@ -49,13 +50,20 @@ bool GlobalBounds::post(Plan plan) {
 
   const std::lock_guard lock(mutex_);
   if (incumbent_ && incumbent_->cost <= claim.plan->cost) return false;
+  const Cost bound = lower_bound_locked();
+  GROVE_CHECK(!incumbent_ || claim.plan->cost < incumbent_->cost,
+              "a new incumbent is cheaper than the one before");
+  GROVE_CHECK(claim.plan->cost >= bound, "no plan costs less than the proven lower bound");
   incumbent_ = std::move(claim.plan);
+  GROVE_CHECK(lower_bound_locked() >= bound, "a new incumbent does not lower the lower bound");
   return true;
 }
 
 void GlobalBounds::update(Cost node_bound, Cost next_tree_bound) {
   const std::lock_guard lock(mutex_);
+  const Cost before = lower_bound_locked();
   open_bound_ = std::max(open_bound_, std::min(node_bound, next_tree_bound));
+  GROVE_CHECK(lower_bound_locked() >= before, "the lower bound never falls");
 }
 
 Cost GlobalBounds::lower_bound_locked() const {

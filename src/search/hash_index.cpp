@@ -18,12 +18,16 @@ void HashIndex::reserve_one() {
   smaller.swap(slots_);
   for (const Slot& slot : smaller)
     if (slot.number != kNone) put(slot);
+  GROVE_ASSERT(4 * (static_cast<std::size_t>(size_) + 1) <= 3 * slots_.size(),
+               "an index is at most three quarters full");
 }
 
 HashIndex::Number HashIndex::add(std::uint32_t hash) {
   GROVE_ASSERT(static_cast<std::size_t>(size_) < slots_.size(),
                "reserve_one() must be called first");
   put({hash, size_});
+  GROVE_ASSERT(find(hash, [&](Number number) { return number == size_; }) == size_,
+               "an entry that was added is found");
   return size_++;
 }
 

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "joint/epea_star.h"
+#include "model/assert.h"
 #include "model/effort.h"
 #include "model/omega.h"
 
@@ -49,7 +50,12 @@ bool JointGroups::solve(const NodeView& view, std::span<const AgentIndex> group,
   abort_at_ = work() + tuning_.joint_group_work;
   for (Cost more = 1; !known.exact && known.excess <= slack; more *= 2) {
     const Cost max_excess = std::min(slack, known.excess + more);
+    GROVE_ASSERT(max_excess >= known.excess, "the graphs of a round allow for the known excess");
     const Outcome outcome = solve_up_to(max_excess, view, group, limits, known);
+    GROVE_ASSERT(known.excess <= max_excess + 1,
+                 "graphs prove at most the excess that they exceed");
+    GROVE_ASSERT(outcome != Outcome::kSolved || known.exact || known.excess > max_excess,
+                 "a solved round has an exact excess, or one above its graphs");
     if (outcome == Outcome::kStopped) return false;
     if (outcome == Outcome::kAborted) return true;
   }

@@ -17,6 +17,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -45,6 +47,10 @@ class BoundCollector {
       AgentSubproblem subproblem = memory_.subproblems.subproblem(id);
       const Tree* tree = trees_.of(*subproblem.order);
       if (tree == nullptr) return;
+      GROVE_CHECK(tree->orders[subproblem.agent].get() == subproblem.order,
+                  "a tree found for a subproblem fixes its agent's sequence class");
+      GROVE_CHECK(fact.agents.empty() || fact.agents.back().agent < subproblem.agent,
+                  "a learned bound names its agents in ascending order");
       fact.agents.push_back({tree->number, subproblem.agent, std::move(subproblem.constraints)});
     }
     facts_.push_back(std::move(fact));

@@ -14,6 +14,14 @@ Cost cost_of_root(const Tree& tree) {
   return cost;
 }
 
+// True if each of `paths` is of another agent of `tree`, and none is empty.
+bool are_of_distinct_agents(std::span<const NewPath> paths, const Tree& tree) {
+  return std::ranges::all_of(paths, [&](const NewPath& path) {
+    return path.agent >= 0 && path.agent < std::ssize(tree.orders) && !path.path->empty() &&
+           std::ranges::count(paths, path.agent, &NewPath::agent) == 1;
+  });
+}
+
 }  // namespace
 
 NodePtr Node::root(const Tree& tree) {
@@ -26,6 +34,8 @@ NodePtr Node::root(const Tree& tree) {
 NodePtr Node::child(const NodePtr& parent, const NodeDelta& change) {
   const Tree& tree = parent->tree();
   const World& world = *tree.world;
+  GROVE_ASSERT(are_of_distinct_agents(change.paths, tree),
+               "a node stores at most one path of each agent of its tree");
   void* memory = tree.pool->allocate(bytes(world, change.paths));
   Node* node = new (memory) Node(parent, tree, change);
   node->bound_ = std::max({change.bound, change.cost, parent->bound()});
@@ -36,6 +46,9 @@ NodePtr Node::child(const NodePtr& parent, const NodeDelta& change) {
     pack(world, *path.path, word);
     word += packed_words(world, steps);
   }
+  GROVE_ASSERT(node->bound_ >= parent->bound() && node->bound_ >= node->cost_,
+               "a node's bound is at least its parent's and at least its cost");
+  GROVE_ASSERT(node->bytes() == bytes(world, change.paths), "a node knows its size");
   return NodePtr(node);
 }
 
@@ -88,6 +101,12 @@ void Node::paths(const Problem& problem, std::span<const AgentIndex> agents,
   for (const Node* node = this; !node->is_root(); node = node->parent_.get())
     node->for_each_path(unpack);
   for (AgentIndex agent : agents) unpack(agent, tree_->orders[agent]->path.view());
+  GROVE_ASSERT(std::ranges::all_of(agents,
+                                   [&](AgentIndex agent) {
+                                     return !paths[agent].empty() &&
+                                            paths[agent].front() == instance.agent(agent).start;
+                                   }),
+               "each agent has a path from its start at every node");
 }
 
 void Node::constraints(AgentIndex agent, std::vector<Constraint>& constraints) const {
@@ -110,6 +129,8 @@ void Node::constraints(std::vector<std::vector<Constraint>>& constraints) const 
 
 GoalSequence goals_in_order(const Problem& problem, AgentIndex agent, const Sequence& sequence) {
   std::vector<TaskIndex> stops;
+  GROVE_ASSERT(sequence.size() == problem.instance.agent(agent).stops.size(),
+               "an order of the goals has each stop of its agent");
   for (const Stop stop : sequence) stops.push_back(problem.instance.agent(agent).stops[stop]);
   return GoalSequence(problem.instance, problem.distances, agent, stops);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "search/node_pool.h"
 
+#include "model/assert.h"
+
 namespace grove::detail {
 namespace {
 
@@ -38,6 +40,7 @@ void* NodePool::take_small(std::size_t size_class) {
 
 void NodePool::release(void* memory, std::size_t bytes) {
   const std::lock_guard lock(mutex_);
+  GROVE_ASSERT(bytes <= bytes_, "a pool releases no more bytes than it has allocated");
   bytes_ -= bytes;
   if (bytes > kMaxSmallBytes) return large_.deallocate(memory, bytes);
   Free*& head = free_[(bytes + kStep - 1) / kStep];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "model/assert.h"
 #include "search/require.h"
 
 namespace grove::detail {
@@ -46,6 +47,10 @@ NodeRecord record_of(const Node& node) {
   }
   std::ranges::reverse(record.constraints);
   std::ranges::sort(record.paths, {}, &NodeRecord::Walk::agent);
+  GROVE_CHECK(
+      std::ranges::adjacent_find(record.paths, {}, &NodeRecord::Walk::agent) == record.paths.end(),
+      "a record has one path of an agent, that of the deepest node");
+  GROVE_CHECK(record.bound >= record.cost, "a record's bound is at least its cost");
   return record;
 }
 
@@ -71,7 +76,10 @@ NodePtr node_of(const NodeRecord& record, const NodePtr& root, const Instance& i
   change.bound = record.bound;
   change.conflicts = record.conflicts;
   change.bounded = record.bounded;
-  return Node::child(node, change);
+  NodePtr made = Node::child(node, change);
+  GROVE_CHECK(made->bound() == record.bound && made->cost() == record.cost,
+              "a node has the bound and the cost of its record");
+  return made;
 }
 
 }  // namespace grove::detail

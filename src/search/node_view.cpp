@@ -7,6 +7,15 @@
 #include "search/audit.h"
 
 namespace grove::detail {
+namespace {
+
+Cost sum_of_costs(std::span<const Path> paths) {
+  Cost sum = 0;
+  for (const Path& path : paths) sum += std::ssize(path) - 1;
+  return sum;
+}
+
+}  // namespace
 
 NodeView::NodeView(const Problem& problem, const SearchOptions& options, WorkerCache& memory)
     : problem_(problem),
@@ -22,6 +31,8 @@ void NodeView::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
   scope_.assign(scope.begin(), scope.end());
   rerouted_.clear();
   node->paths(problem_, scope_, paths_);
+  GROVE_ASSERT(scope_.size() < paths_.size() || sum_of_costs(paths_) == node->cost(),
+               "a node costs as much as its paths");
   update_constraints();
   find_conflicts();
 }
@@ -45,6 +56,14 @@ void NodeView::update_constraints() {
 
 void NodeView::find_conflicts() {
   finder_.all(paths_, scope_, conflicts_);
+  GROVE_ASSERT(std::ranges::is_sorted(conflicts_, {}, &Conflict::time),
+               "conflicts are in order of time");
+  GROVE_ASSERT(std::ranges::all_of(conflicts_,
+                                   [&](const Conflict& c) {
+                                     return c.first < c.second && is_in_scope(c.first) &&
+                                            is_in_scope(c.second);
+                                   }),
+               "a conflict is of two agents in scope, the smaller index first");
   for (const AgentIndex agent : scope_) steps_ += std::ssize(paths_[agent]);
 }
 
@@ -82,6 +101,8 @@ void NodeView::affected_agents(const AgentConstraint& constraint,
 
 void NodeView::reroute(std::span<const AgentIndex> agents, std::span<const Path> paths) {
   for (std::size_t i = 0; i < agents.size(); ++i) {
+    GROVE_ASSERT(paths[i].size() == paths_[agents[i]].size(),
+                 "a new path costs as much as the one that it replaces");
     paths_[agents[i]] = paths[i];
     if (std::ranges::count(rerouted_, agents[i]) == 0) rerouted_.push_back(agents[i]);
   }

@@ -82,6 +82,8 @@ void pack(const World& world, const Path& path, std::uint64_t* words) {
       if (step % per_word == 0) words[step / per_word] = 0;
       const std::uint64_t code = codes.code(path[step], path[step + 1]);
       GROVE_ASSERT(codes.has(path[step], code), "a path makes at most one move each step");
+      GROVE_ASSERT(codes.after(path[step], code) == path[step + 1],
+                   "a packed step leads to the next state of the path");
       words[step / per_word] |= code << (step % per_word * bits);
     }
   });
@@ -98,7 +100,9 @@ void PackedSteps::unpack(const World& world, State start, Path& path) const {
     for (std::uint32_t step = 0; step < steps; ++step) {
       if (step % per_word == 0) word = words[step / per_word];
       GROVE_ASSERT(codes.has(state, word & mask), "an unpacked path must be a walk");
-      state = codes.after(state, word & mask);
+      const State next = codes.after(state, word & mask);
+      GROVE_ASSERT(codes.is_step(state, next), "an unpacked step is a move of the world");
+      state = next;
       word >>= bits;
       path[step + 1] = state;
     }

@@ -8,7 +8,10 @@
 #include "search/pebble_graph.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
+
+#include "model/assert.h"
 
 namespace grove::detail {
 
@@ -70,6 +73,7 @@ void PebbleGraph::number(const World& world, Place root) {
     around.pop_back();
     if (node(next) == kNone) visit(next, way.back().node, depths_[way.back().node] + 1);
   }
+  GROVE_CHECK(places_.size() == part_.size(), "all places of a component are connected");
 }
 
 // The second loop runs backwards, so that each node is complete before its parent.
@@ -89,8 +93,12 @@ void PebbleGraph::find_blocks() {
     if (begins) blocks_.push_back({.nodes = {parent(node)}});
     block_of_[node] =
         begins ? static_cast<std::int32_t>(blocks_.size()) - 1 : block_of_[parent(node)];
+    GROVE_ASSERT(parent(node) < node, "a parent has a smaller number than its children");
     blocks_[block_of_[node]].nodes.push_back(node);
   }
+  PebbleNode below = 0;  // nodes of blocks, without the first of each block
+  for (const Block& block : blocks_) below += static_cast<PebbleNode>(block.nodes.size()) - 1;
+  GROVE_CHECK(below == size() - 1, "each node except the root is in one block with its parent");
 }
 
 void PebbleGraph::count_edges() {
@@ -102,6 +110,11 @@ void PebbleGraph::count_edges() {
       if ((depths_[node] - depths_[other]) % 2 == 0) block.is_bipartite = false;
     }
   }
+  std::size_t edges = 0;
+  std::size_t ends = 0;
+  for (const Block& block : blocks_) edges += static_cast<std::size_t>(block.ways);
+  for (PebbleNode node = 0; node < size(); ++node) ends += neighbors(node).size();
+  GROVE_CHECK(2 * edges == ends, "each edge is in one block");
 }
 
 void PebbleGraph::find_regions() {
@@ -118,7 +131,9 @@ void PebbleGraph::find_regions() {
 }
 
 std::vector<int> PebbleGraph::sums(std::vector<int> values) const {
+  const int total = std::accumulate(values.begin(), values.end(), 0);
   for (PebbleNode node = size() - 1; node > 0; --node) values[parent(node)] += values[node];
+  GROVE_CHECK(values.front() == total, "the sum of the root is that of all nodes");
   return values;
 }
 

@@ -28,6 +28,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/assert.h"
 #include "search/pebble_graph.h"
 #include "search/reach.h"
 
@@ -92,7 +93,17 @@ class ComponentAgents {
         start_(static_cast<std::size_t>(board_.size()), kNoAgent) {
     for (const AgentIndex agent : agents_)
       start_[board_.node(start(instance.agent(agent)))] = agent;
+    GROVE_CHECK(std::ssize(start_) - std::ranges::count(start_, kNoAgent) == std::ssize(agents_),
+                "each agent of a component starts on a place of its own");
     reach_ = reach_of(board_, start_, instance.may_follow());
+    GROVE_CHECK(reach_->has(start_), "the configuration of the starts is reachable");
+    GROVE_CHECK(std::ranges::all_of(agents_,
+                                    [&](AgentIndex agent) {
+                                      const PebbleNode node =
+                                          board_.node(start(instance.agent(agent)));
+                                      return reach_->has(node, node);
+                                    }),
+                "each agent reaches its start");
   }
 
   std::optional<std::string> infeasibility() const {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "search/proof_log.h"
 
+#include <functional>
 #include <ranges>
 
+#include "model/assert.h"
 #include "model/hash.h"
 
 namespace grove::detail {
@@ -61,6 +63,9 @@ ProofKey ProofLemma::key() const {
 }
 
 ProofLemma lemma_at(const NodeView& view, std::span<const AgentIndex> group, Cost excess) {
+  GROVE_ASSERT(
+      group.size() > 1 && std::ranges::adjacent_find(group, std::greater_equal<>()) == group.end(),
+      "a lemma is about two or more agents, in ascending order");
   ProofLemma lemma;
   lemma.agents.assign(group.begin(), group.end());
   for (const AgentIndex agent : group) {

@@ -46,6 +46,7 @@
 #include <optional>
 #include <utility>
 
+#include "model/assert.h"
 #include "search/reach.h"
 
 namespace grove::detail {
@@ -153,6 +154,7 @@ class Membership {
     std::vector<int> counts;
     for (const AgentIndex agent : arrangement) counts.push_back(agent == kNoAgent ? 1 : 0);
     free_ = board().sums(std::move(counts));
+    GROVE_CHECK(free_.front() == crossings.free(), "the number of free nodes never changes");
     for (PebbleNode node = 0; node < board().size(); ++node)
       if (!is_free(node) && crossings.is_crossing(node) && !is_held(node))
         groups_[node] = crossings.group(node);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "model/assert.h"
+
 namespace grove::detail {
 
 std::int64_t SharedCache::next_number() {
@@ -56,6 +58,7 @@ const Mdd* WorkerCache::paths(Id id, AgentIndex agent, const AgentSequencing& or
     set = MddCache::make(planner_, agent, order, constraints, cost,
                          static_cast<std::size_t>(max_mdd_nodes_), limits);
   if (!set) return nullptr;
+  GROVE_ASSERT(set->empty() || set->cost() == cost, "a cached MDD has the cost asked for");
   return (found_.mdds[id] = std::move(set)).get();
 }
 
@@ -69,6 +72,12 @@ DependencyTable::ExcessBound WorkerCache::of_pair(Id first, Id second) const {
 
 void WorkerCache::merge_pair(Id first, Id second, AgentIndex agent,
                              DependencyTable::ExcessBound known) {
+  GROVE_ASSERT(std::ranges::none_of(found_.pairs,
+                                    [&](const CacheDelta::Pair& p) {
+                                      return std::pair(p.first, p.second) ==
+                                             std::pair(first, second);
+                                    }),
+               "a worker has one own entry of a pair");
   found_.pairs.push_back({first, second, agent, known});
 }
 

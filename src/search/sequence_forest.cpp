@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/assert.h"
 #include "sequencing/cost_matrix.h"
 
 namespace grove::detail {
@@ -48,7 +49,13 @@ Cost SequenceForest::next_bound() const {
 }
 
 NodePtr SequenceForest::next_root() {
-  if (!pending_) pending_ = sequences_.next();
+  if (!pending_) {
+    const Cost bound = sequences_.lower_bound();
+    pending_ = sequences_.next();
+    GROVE_CHECK(
+        !pending_ || (pending_->cost >= bound && sequences_.lower_bound() >= pending_->cost),
+        "joint sequences come in ascending order of cost");
+  }
   if (!pending_ || !plan_missing_orders(*pending_)) return nullptr;
 
   Tree& tree = trees_.emplace_back();
@@ -57,7 +64,10 @@ NodePtr SequenceForest::next_root() {
   tree.number = count_;
   for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent)
     tree.orders.push_back(slot(agent, pending_->ranks[agent]));
+  GROVE_ASSERT(std::ranges::count(trees_, tree.orders, &Tree::orders) == 1,
+               "no two trees fix the same sequences");
   NodePtr root = Node::root(tree);
+  GROVE_CHECK(root->cost() >= pending_->cost, "a root costs at least its joint sequence");
   ++count_;
   pending_.reset();  // last: an exception before this line loses no tree
   return root;
@@ -92,6 +102,8 @@ bool SequenceForest::plan_order(AgentIndex agent, std::uint32_t rank) {
   if (outcome == PathOutcome::kStopped) return false;
   if (outcome != PathOutcome::kFound)
     throw std::logic_error("internal error: a sequence of finite cost has no path");
+  GROVE_CHECK(static_cast<Time>(path_.size()) - 1 >= goals.distance(goals.start(), 0),
+              "no path through the goals is shorter than their distances");
   PackedPath packed(instance.world(), path_);
   others_.add(path_);
   slot(agent, rank) = std::make_shared<const AgentSequencing>(

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/assert.h"
 #include "planning/free_order_sipp.h"
 
 namespace grove::detail {
@@ -43,7 +44,10 @@ NodePtr SingleTree::next_root() {
   }
   planner_.reset();
   Tree& tree = tree_.emplace_back(Tree{&problem_.instance.world(), &pool_, 0, std::move(orders)});
-  return Node::root(tree);
+  NodePtr root = Node::root(tree);
+  GROVE_CHECK(root->cost() >= relaxed_bound_,
+              "the root costs at least the bound of the relaxation");
+  return root;
 }
 
 }  // namespace grove::detail

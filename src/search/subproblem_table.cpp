@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 #include <tuple>
 
 #include "model/assert.h"
@@ -63,22 +64,28 @@ auto key_of(const Constraint& c) {
   return std::tuple(c.kind, c.cell, c.from, c.begin, c.end);
 }
 
+bool is_canonical(std::span<const Constraint> constraints) {
+  return std::ranges::adjacent_find(constraints, std::greater_equal<>(), key_of) ==
+         constraints.end();
+}
+
 }  // namespace
 
 void canonical(std::vector<Constraint>& constraints) {
   std::ranges::sort(constraints, {}, key_of);
   constraints.erase(std::unique(constraints.begin(), constraints.end()), constraints.end());
+  GROVE_ASSERT(is_canonical(constraints), "the canonical order is strictly ascending");
 }
 
 void add_to_canonical(std::vector<Constraint>& constraints, const Constraint& more) {
   const auto at = std::ranges::lower_bound(constraints, key_of(more), {}, key_of);
   if (at == constraints.end() || *at != more) constraints.insert(at, more);
+  GROVE_ASSERT(is_canonical(constraints), "an added constraint keeps the canonical order");
 }
 
 SubproblemTable::Id SubproblemTable::id(AgentIndex agent, const AgentSequencing& order,
                                         std::span<const Constraint> constraints) {
-  GROVE_ASSERT(std::ranges::is_sorted(constraints, {}, key_of),
-               "constraints must be in canonical order");
+  GROVE_ASSERT(is_canonical(constraints), "constraints must be in canonical order");
   std::string& key = key_begun(agent, order);
   pack(constraints, key);
   return id_of_key(order, key);
@@ -96,6 +103,7 @@ SubproblemTable::Id SubproblemTable::id_of_key(const AgentSequencing& order, std
   const Id at = parts_.with(number, [&](Part& part) {
     const std::size_t before = part.bytes();
     const Id id = part.find_or_add(static_cast<std::uint32_t>(hash), key);
+    GROVE_ASSERT(part.key(id) == key, "the entry found has the key asked for");
     bytes_ += part.bytes() - before;
     return id;
   });
@@ -125,6 +133,10 @@ bool SubproblemTable::merge(Id id, CostBound learnt) {
     const CostBound before = known;
     if (!known.exact && (learnt.exact || learnt.lower_bound > known.lower_bound)) known = learnt;
     known.was_aborted = before.was_aborted || learnt.was_aborted;
+    GROVE_ASSERT(!before.exact || learnt.lower_bound <= before.lower_bound,
+                 "no lower bound exceeds an exact cost");
+    GROVE_ASSERT(known.lower_bound >= before.lower_bound && known.exact >= before.exact,
+                 "a known cost bound only gets stronger");
     return known != before;
   });
 }
@@ -143,7 +155,10 @@ SubproblemTable::Id SubproblemTable::Part::find_or_add(std::uint32_t hash,
     entries.pop_back();
     throw;
   }
-  return index.add(hash);
+  const Id added = index.add(hash);
+  GROVE_ASSERT(static_cast<std::size_t>(added) + 1 == entries.size(),
+               "the index numbers the entries in their order");
+  return added;
 }
 
 std::string_view SubproblemTable::Part::key(Id entry) const {

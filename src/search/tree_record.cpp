@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/assert.h"
 #include "planning/fixed_order_sipp.h"
 #include "search/require.h"
 
@@ -67,7 +68,11 @@ NodePtr Trees::add(const TreeRecord& record, std::uint32_t number) {
   Tree tree{&problem_.instance.world(), &pool_, number, {}};
   for (std::size_t agent = 0; agent < orders_.size(); ++agent)
     tree.orders.push_back(order_of(static_cast<AgentIndex>(agent), record.orders[agent]));
-  return Node::root(trees_.emplace_back(std::move(tree)));
+  NodePtr root = Node::root(trees_.emplace_back(std::move(tree)));
+  Cost steps = 0;
+  for (const TreeRecord::Order& order : record.orders) steps += order.steps;
+  GROVE_CHECK(root->cost() == steps, "the root of a tree costs as much as its record");
+  return root;
 }
 
 Trees::Order Trees::order_of(AgentIndex agent, const TreeRecord::Order& record) {

@@ -55,8 +55,11 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <numeric>
+
+#include "model/assert.h"
 
 namespace grove::detail {
 namespace {
@@ -75,8 +78,7 @@ WdgHeuristic::WdgHeuristic(const Problem& problem, const SearchOptions& options,
       tuning_(options.tuning),
       proof_(options.proof),
       memory_(memory),
-      pair_view_(problem, options, memory),
-      pair_brancher_(problem, options, planner, memory),
+      group_cbs_(problem, options, planner, memory),
       joint_mdd_search_(problem.instance.world()),
       joint_groups_(problem.instance, tuning_, planner),
       subproblem_(static_cast<std::size_t>(agents_)) {}
@@ -162,11 +164,13 @@ WdgHeuristic::Outcome WdgHeuristic::solve_conflicting_pairs(NodeView& view, Cost
       // The comparison ignores following conflicts.
       known.exact = *dependence == Dependence::kIndependent && instance_.may_follow();
       known.excess = *dependence == Dependence::kDependent ? 1 : 0;
-      if (proof_ != nullptr && known.excess > 0) log_lemma(view, std::array{a, b}, 1, kNoProof, {});
+      if (proof_ != nullptr && known.excess > 0) log_lemma(view, std::array{a, b}, 1);
     }
     const bool solved =
         known.exact || solve(view, std::array{a, b}, slack, tuning_.pair_expansions, limits, known);
     if (!solved) return Outcome::kStopped;
+    GROVE_ASSERT(known.exact || known.excess > slack || known.expansions > 0,
+                 "no pair is examined twice");
     memory_.merge_pair(subproblem_[a], subproblem_[b], b, known);
   }
   return Outcome::kDone;
@@ -240,74 +244,17 @@ std::vector<SubproblemTable::Id> WdgHeuristic::key(std::span<const AgentIndex> g
 // where the caller must return kStopped.
 bool WdgHeuristic::solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
                          std::int64_t max_expansions, const Limits& limits, ExcessBound& known) {
-  if (!solve_by_splits(view.node(), group, slack, max_expansions, limits, known)) return false;
+  if (!group_cbs_.solve(view.node(), group, slack, max_expansions, limits, known)) return false;
   if (known.exact || known.excess > slack || !techniques_.has(Technique::kJointGroups)) return true;
   const Cost by_splits = known.excess;
   if (!joint_groups_.solve(view, group, slack, limits, known)) return false;
-  if (proof_ != nullptr && known.excess > by_splits)
-    log_lemma(view, group, known.excess, kNoProof, {});
+  if (proof_ != nullptr && known.excess > by_splits) log_lemma(view, group, known.excess);
   return true;
 }
 
-bool WdgHeuristic::solve_by_splits(const NodePtr& node, std::span<const AgentIndex> group,
-                                   Cost slack, std::int64_t max_expansions, const Limits& limits,
-                                   ExcessBound& known) {
-  const Cost base = node->cost();
-  // Without a cutoff a branch is pruned only if it has no path, so if all branches are pruned, the
-  // excess is infinite.
-  const Cost closed = base + slack + 1 >= kInfiniteCost ? kInfiniteCost : slack + 1;
-  const Cost known_before = known.excess;
-  open_.clear();
-  open_.push_back({base, node});
-  written_.clear();
-  for (std::int64_t i = 0; i < max_expansions && !open_.empty(); ++i) {
-    // Ties are broken in favour of the newest node, because the search ends with the first
-    // conflict-free node.
-    const auto best = std::ranges::min_element(open_.rbegin(), open_.rend(), {}, &Open::cost);
-    const Open next = *best;
-    open_.erase(std::next(best).base());
-    known.excess = std::max(known.excess, next.cost - base);
-    pair_view_.enter(next.node, group);
-    children_.clear();
-    const auto outcome = pair_brancher_.branch(pair_view_, base + slack + 1, {}, limits, children_);
-    if (outcome == Brancher::Outcome::kStopped) return false;
-    ++expansions_;
-    ++known.expansions;
-    if (outcome == Brancher::Outcome::kConflictFree) {
-      known.exact = true;
-      break;
-    }
-    if (proof_ != nullptr && pair_brancher_.branching()) log_splits(next, base, closed);
-    for (NodePtr& child : children_) open_.push_back({child->cost(), std::move(child)});
-  }
-  const auto least = std::ranges::min_element(open_, {}, &Open::cost);
-  if (!known.exact)
-    known.excess = std::max(known.excess, least == open_.end() ? closed : least->cost - base);
-  if (proof_ != nullptr && known.excess > known_before) {
-    pair_view_.enter(node, group);
-    log_lemma(pair_view_, group, known.excess, proof_key(*node), written_);
-  }
-  open_.clear();
-  return true;
-}
-
-// Stores costs relative to the cost of the initial node, until log_lemma() converts them to costs
-// of the group.
-void WdgHeuristic::log_splits(const Open& from, Cost base, Cost closed) {
-  const Split& split = pair_brancher_.branching()->split;
-  ProofSplit written{proof_key(*from.node), split, {closed, closed}};
-  for (const NodePtr& child : children_)
-    written.costs[child->added() == split[0] ? 0 : 1] = child->cost() - base;
-  written_.push_back(written);
-}
-
-void WdgHeuristic::log_lemma(const NodeView& view, std::span<const AgentIndex> group, Cost excess,
-                             ProofKey root, std::span<const ProofSplit> splits) {
-  const ProofLemma lemma = lemma_at(view, group, excess);
-  std::vector<ProofSplit> of_group(splits.begin(), splits.end());
-  for (ProofSplit& split : of_group)
-    for (Cost& cost : split.costs) cost = std::min(kInfiniteCost, cost + lemma.bound - excess);
-  proof_->lemma(lemma, root, of_group);
+// Logs a lemma that is proven by enumeration of all joint paths of its agents.
+void WdgHeuristic::log_lemma(const NodeView& view, std::span<const AgentIndex> group, Cost excess) {
+  proof_->lemma(lemma_at(view, group, excess), kNoProof, {});
 }
 
 void WdgHeuristic::log_bound(const NodeView& view, std::span<const GroupExcess> statements,
@@ -316,12 +263,6 @@ void WdgHeuristic::log_bound(const NodeView& view, std::span<const GroupExcess> 
   for (const GroupExcess& s : statements)
     excesses.push_back({lemma_at(view, s.agents, s.excess).key(), s.agents, s.excess});
   proof_->bound(proof_key(*view.node()), view.node()->cost(), bound, excesses);
-}
-
-void WdgHeuristic::leave() {
-  open_.clear();
-  children_.clear();
-  pair_view_.leave();
 }
 
 // Collects each pair and group whose current subproblems have a known positive excess, once, with
@@ -343,6 +284,15 @@ void WdgHeuristic::collect(std::vector<GroupExcess>& statements) {
     return s.agents == t.agents;
   };
   statements.erase(std::unique(statements.begin(), statements.end(), repeats), statements.end());
+  GROVE_ASSERT(std::ranges::adjacent_find(statements, std::greater_equal<>(),
+                                          &GroupExcess::agents) == statements.end(),
+               "statements are about distinct groups, in ascending order");
+  GROVE_ASSERT(std::ranges::all_of(statements,
+                                   [](const GroupExcess& s) {
+                                     return s.excess > 0 && s.agents.size() > 1 &&
+                                            std::ranges::is_sorted(s.agents);
+                                   }),
+               "a statement gives two or more agents a positive excess");
 }
 
 ProofKey WdgHeuristic::lemma_key(NodeView& view, const Split& split) {

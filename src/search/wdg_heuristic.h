@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "planning/joint_mdd_search.h"
-#include "search/brancher.h"
 #include "search/covering.h"
+#include "search/group_cbs.h"
 #include "search/joint_groups.h"
 #include "search/proof_log.h"
 #include "search/result_cache.h"
@@ -61,27 +61,22 @@ class WdgHeuristic {
   ProofKey lemma_key(NodeView& view, const Split& split);
 
   // Drops all references to nodes.
-  void leave();
+  void leave() { group_cbs_.leave(); }
 
   // Counters since construction. expansions(): nodes expanded for pairs and groups.
   // joint_mdd_nodes(): pairs of MDD nodes compared in joint MDDs. steps() and mdd_nodes(): the
   // counters of the view and of the brancher for pairs and groups.
-  std::int64_t expansions() const { return expansions_; }
+  std::int64_t expansions() const { return group_cbs_.expansions(); }
   std::int64_t joint_mdd_nodes() const { return joint_mdd_search_.pairs(); }
-  std::int64_t steps() const { return pair_view_.steps(); }
+  std::int64_t steps() const { return group_cbs_.steps(); }
   // Like NodeView::swap_cache(), for the view for pairs and groups.
-  void swap_cache(NodeView::AgentCache& cache) { pair_view_.swap_cache(cache); }
+  void swap_cache(NodeView::AgentCache& cache) { group_cbs_.swap_cache(cache); }
   // The joint search for pairs and groups.
   const JointGroups& joint_groups() const { return joint_groups_; }
-  std::int64_t mdd_nodes() const { return pair_brancher_.mdd_nodes(); }
+  std::int64_t mdd_nodes() const { return group_cbs_.mdd_nodes(); }
 
  private:
   using ExcessBound = DependencyTable::ExcessBound;
-
-  struct Open {
-    Cost cost;
-    NodePtr node;
-  };
 
   void load_subproblems(NodeView& view);
   bool may_cost(AgentIndex agent, Time cost) const;
@@ -98,32 +93,23 @@ class WdgHeuristic {
   std::vector<SubproblemTable::Id> key(std::span<const AgentIndex> group) const;
   bool solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
              std::int64_t max_expansions, const Limits& limits, ExcessBound& known);
-  bool solve_by_splits(const NodePtr& node, std::span<const AgentIndex> group, Cost slack,
-                       std::int64_t max_expansions, const Limits& limits, ExcessBound& known);
   void collect(std::vector<GroupExcess>& statements);
-  void log_splits(const Open& from, Cost base, Cost closed);
-  void log_lemma(const NodeView& view, std::span<const AgentIndex> group, Cost excess,
-                 ProofKey root, std::span<const ProofSplit> splits);
+  void log_lemma(const NodeView& view, std::span<const AgentIndex> group, Cost excess);
   void log_bound(const NodeView& view, std::span<const GroupExcess> statements, Cost bound);
   std::int64_t work() const { return planner_.work() + joint_groups_.work(); }
 
   const Instance& instance_;
   const PathPlanner& planner_;
-  const int agents_;
+  const AgentIndex agents_;
   const Techniques techniques_;
   const Tuning tuning_;
   ProofLog* const proof_;
   WorkerCache& memory_;
-  NodeView pair_view_;  // view of a pair or group
-  Brancher pair_brancher_;
+  GroupCbs group_cbs_;
   JointMddSearch joint_mdd_search_;
   JointGroups joint_groups_;
   std::vector<SubproblemTable::Id> subproblem_;  // by AgentIndex, at the node
-  std::vector<Open> open_;  // unsorted; the search takes the node of least cost
-  std::vector<NodePtr> children_;
-  std::vector<ProofSplit> written_;  // splits of the current group, if a certificate is written
   std::vector<DependencyTable::Partner> partners_;
-  std::int64_t expansions_ = 0;
   std::int64_t abort_at_ = 0;  // value of work() at which to abort
 };
 

@@ -327,9 +327,9 @@ TEST(IsolatedSubCoordinator, ReportsTheLeastBoundOfItsRanks) {
   EXPECT_EQ(s.status_after(5, SubCoordinatorOfThree::with(18, 0)).bound, 18);
   EXPECT_EQ(s.status_after(5, SubCoordinatorOfThree::with(25, 0)).bound, 20);
   message::Status evicted;
-  evicted.evicted_bound = 19;
+  evicted.bound = evicted.evicted_bound = 19;
   const auto all = s.status_after(4, evicted);
-  EXPECT_EQ(all.bound, 25);
+  EXPECT_EQ(all.bound, 19);
   EXPECT_EQ(all.evicted_bound, 19);
   EXPECT_TRUE(all.live);
 }

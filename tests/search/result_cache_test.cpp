@@ -34,7 +34,8 @@ TEST(DependencyTable, KeepsTheStrongerBound) {
   DependencyTable table(subproblems);
   EXPECT_TRUE(same(table.of_pair(3, 5), ExcessBound()));
   table.merge_pair(3, 5, 1, {2, false, 16});
-  table.merge_pair(3, 5, 1, {1, true, 4});
+  table.merge_pair(3, 5, 1, {2, true, 4});
+  table.merge_pair(3, 5, 1, {1, false, 1});
   EXPECT_TRUE(same(table.of_pair(3, 5), {2, true, 16}));
   EXPECT_TRUE(same(table.of_pair(5, 3), ExcessBound()));
   EXPECT_TRUE(same(table.of_pair(3, 6), ExcessBound()));

@@ -20,10 +20,12 @@
 
 #include "batch/batch_clock.h"
 #include "batch/result_table.h"
+#include "batch/table_writer.h"
 #include "io/format_support.h"
 #include "io/input_error.h"
 #include "io/instance_file.h"
 #include "io/plan_file.h"
+#include "model/assert.h"
 #include "tools/bench/child_process.h"
 #include "tools/bench/root_costs.h"
 #include "tools/bench/run_outcome.h"
@@ -34,24 +36,44 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-// Minimum intervals between writes of the CSV file, which is rewritten as a whole, and between
-// flushes of the table, which take longer than a short run. If the machine crashes, rows since the
-// last flush are lost and their runs are repeated.
-constexpr double kCsvInterval_s = 30;
-constexpr double kFlushInterval_s = 1;
+constexpr batch::WriteIntervals kWriteIntervals{.flush_s = 1, .csv_s = 30};
 constexpr auto kWatchInterval = std::chrono::milliseconds(100);
 constexpr double kMaxCheckTime_s = 3600;
+
+// All runs of a benchmark: each method on each instance, instance by instance.
+class AllRuns {
+ public:
+  // Both arguments must outlive this object.
+  AllRuns(const std::vector<BenchInstance>& instances, const std::vector<Method>& methods)
+      : instances_(instances), methods_(methods) {
+    for (const BenchInstance& instance : instances)
+      for (const Method& method : methods)
+        runs_.push_back({instance.entry.id, instance.entry.digest, method.settings});
+  }
+
+  const std::vector<batch::Run>& all() const { return runs_; }
+  const batch::Run& operator[](std::size_t run) const { return runs_[run]; }
+  const std::vector<Method>& methods() const { return methods_; }
+  const Method& method(std::size_t run) const { return methods_[run % methods_.size()]; }
+  // Position of the run's instance among all instances.
+  std::size_t instance_index(std::size_t run) const { return run / methods_.size(); }
+  const BenchInstance& instance(std::size_t run) const { return instances_[instance_index(run)]; }
+
+ private:
+  const std::vector<BenchInstance>& instances_;
+  const std::vector<Method>& methods_;
+  std::vector<batch::Run> runs_;
+};
 
 class Bench {
  public:
   Bench(const std::vector<BenchInstance>& instances, const std::vector<Method>& methods,
         const BenchOptions& options)
-      : instances_(instances),
-        methods_(methods),
-        options_(options),
+      : options_(options),
+        runs_(instances, methods),
         table_(options.folder, batch::TableOf::kMethods),
-        runs_(runs()),
-        todo_(table_.begin(runs_)),
+        writer_(table_, kWriteIntervals, [this] { return seconds(); }),
+        todo_(table_.begin(runs_.all())),
         root_costs_(instances.size(), options.root_cost_s,
                     static_cast<std::size_t>(options.root_cost_gb * 1e9)) {
     count_existing_rows();
@@ -85,25 +107,15 @@ class Bench {
 
   // --- runs ---
 
-  std::vector<batch::Run> runs() const {
-    std::vector<batch::Run> runs;
-    for (const BenchInstance& instance : instances_)
-      for (const Method& method : methods_)
-        runs.push_back({instance.entry.id, instance.entry.digest, method.settings});
-    return runs;
-  }
-  const Method& method_of(std::size_t run) const { return methods_[run % methods_.size()]; }
-  std::size_t instance_index(std::size_t run) const { return run / methods_.size(); }
-
   void count_existing_rows() {
-    state_.work.left = static_cast<int>(runs_.size());
+    state_.work.left = static_cast<int>(runs_.all().size());
     state_.work.workers = static_cast<int>(std::max<std::size_t>(1, workers()));
-    for (const Method& method : methods_) {
+    for (const Method& method : runs_.methods()) {
       if (!state_.counts.contains(method.settings.method))
         state_.methods.push_back(method.settings.method);
       state_.counts[method.settings.method];
     }
-    for (const batch::Run& run : runs_)
+    for (const batch::Run& run : runs_.all())
       if (const batch::Row* row = table_.find(run)) {
         state_.count(*row);
         if (row->outcome.version != options_.version)
@@ -132,6 +144,7 @@ class Bench {
     const std::lock_guard lock(mutex_);
     under_way_[worker].busy = false;
     if (must_stop() || next_ == todo_.size()) return std::nullopt;
+    GROVE_CHECK(!table_.find(runs_[todo_[next_]]), "a run that starts has no row");
     under_way_[worker] = {true, Clock::now()};
     return todo_[next_++];
   }
@@ -156,14 +169,14 @@ class Bench {
   }
 
   void do_run(std::size_t run, std::size_t worker) {
-    const Method& method = method_of(run);
+    const Method& method = runs_.method(run);
     batch::Row row{.run = runs_[run],
-                   .facts = instances_[instance_index(run)].facts,
+                   .facts = runs_.instance(run).facts,
                    .machine = options_.machine,
                    .threads = method.threads,
                    .solver = method.solver ? method.solver->adapter.name : ""};
     try {
-      if (const std::string& why = instances_[instance_index(run)].error; !why.empty())
+      if (const std::string& why = runs_.instance(run).error; !why.empty())
         row.outcome = {.error = why};
       else if (!(method.solver ? solve_externally(row, run, files_of(worker))
                                : solve(row, run, files_of(worker))))
@@ -192,35 +205,34 @@ class Bench {
   // Runs Grove and sets the outcome. Returns false if the run or the check of its certificate was
   // cancelled. Reads the instance again after the run, so that the check depends only on the files.
   bool solve(batch::Row& row, std::size_t run, const Files& files) {
-    const std::size_t index = instance_index(run);
+    const BenchInstance& instance = runs_.instance(run);
     const double limit = row.run.settings.time_limit_s;
     fs::remove(files.plan);
     fs::remove(files.log);
     fs::remove(files.proof);
     auto command =
-        solve_command(options_.program, instances_[index].entry, method_of(run), limit, files.plan);
+        solve_command(options_.program, instance.entry, runs_.method(run), limit, files.plan);
     command.insert(command.end(), {"--log", files.log.string(), "--log-format", "jsonl"});
     if (!options_.verify.empty()) command.insert(command.end(), {"--proof", files.proof.string()});
     const ChildEnd end = run_one(command, row, files, true, std::nullopt);
     if (end.kind == ChildEnd::Kind::kCancelled) return false;
-    const LoadedInstance loaded = load(instances_[index].entry);
-    row.outcome =
-        is_refusal(end)
-            ? batch::Outcome{.status = batch::kUnsupported,
-                             .error = refusal(files.output_file, instances_[index].entry.path)}
-            : outcome_of_run(end, limit, loaded.instance, files.plan, files.output_file);
+    const LoadedInstance loaded = load(instance.entry);
+    row.outcome = is_refusal(end)
+                      ? batch::Outcome{.status = batch::kUnsupported,
+                                       .error = refusal(files.output_file, instance.entry.path)}
+                      : outcome_of_run(end, limit, loaded.instance, files.plan, files.output_file);
     if (!row.outcome.failed()) row.outcome.trace = trace_of_log(files.log);
     if (!row.outcome.trace.empty()) row.outcome.first_plan_s = row.outcome.trace.front().seconds;
-    if (fs::exists(files.proof) && !certify(row.outcome, index, loaded, files)) return false;
-    row.root_cost = root_costs_.of(index, loaded.instance);
+    if (fs::exists(files.proof) && !certify(row.outcome, instance.entry, loaded, files))
+      return false;
+    row.root_cost = root_costs_.of(runs_.instance_index(run), loaded.instance);
     if (options_.keep_plans) keep(files.plan, plan_name(row), row);
     return true;
   }
 
   // Runs grove-verify on the certificate of the run. Returns false if the check was cancelled.
-  bool certify(batch::Outcome& outcome, std::size_t index, const LoadedInstance& loaded,
+  bool certify(batch::Outcome& outcome, const batch::Entry& entry, const LoadedInstance& loaded,
                const Files& files) const {
-    const batch::Entry& entry = instances_[index].entry;
     fs::path instance = entry.path;
     if (entry.agents > 0) {
       instance = files.instance;
@@ -241,12 +253,11 @@ class Bench {
   }
 
   bool solve_externally(batch::Row& row, std::size_t run, const Files& files) {
-    const std::size_t index = instance_index(run);
-    const LoadedInstance loaded = load(instances_[index].entry);
+    const batch::Entry& entry = runs_.instance(run).entry;
+    const LoadedInstance loaded = load(entry);
     try {
-      const Method& method = method_of(run);
-      ExternalRun external(*method.solver, instances_[index].entry, loaded, row.run.settings,
-                           files.folder);
+      const Method& method = runs_.method(run);
+      ExternalRun external(*method.solver, entry, loaded, row.run.settings, files.folder);
       const ChildEnd end =
           run_one(external.command(), row, files, external.receives_time_limit(), method.memory_gb);
       if (end.kind == ChildEnd::Kind::kCancelled) return false;
@@ -256,7 +267,7 @@ class Bench {
       row.outcome = {.status = batch::kUnsupported,
                      .error = fmt::format("{}: {}", error.field(), error.what())};
     }
-    row.root_cost = root_costs_.of(index, loaded.instance);
+    row.root_cost = root_costs_.of(runs_.instance_index(run), loaded.instance);
     return true;
   }
 
@@ -287,15 +298,11 @@ class Bench {
 
   void record(const batch::Row& row) {
     const std::lock_guard lock(mutex_);
-    table_.append({&row, 1});
+    GROVE_CHECK(!row.root_cost || !row.outcome.cost || *row.root_cost <= *row.outcome.cost,
+                "no plan costs less than the sum of the agents' best sequences");
+    writer_.write({&row, 1});
     state_.count(row);
-    if (seconds() >= next_flush_s_) {
-      table_.flush();
-      next_flush_s_ = seconds() + kFlushInterval_s;
-    }
-    if (seconds() < next_csv_s_) return;
-    table_.write_csv();
-    next_csv_s_ = seconds() + kCsvInterval_s;
+    GROVE_CHECK(state_.work.left >= 0, "no run is counted twice");
   }
 
   // --- progress ---
@@ -314,21 +321,18 @@ class Bench {
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   fs::path scratch() const { return options_.folder / ".running"; }
 
-  const std::vector<BenchInstance>& instances_;
-  const std::vector<Method>& methods_;
   const BenchOptions& options_;
   const Clock::time_point start_ = Clock::now();
+  const AllRuns runs_;
   batch::ResultTable table_;
-  const std::vector<batch::Run> runs_;
+  batch::TableWriter writer_;
   const std::vector<std::size_t> todo_;  // positions in runs_
   RootCosts root_costs_;
 
-  std::mutex mutex_;  // guards table_ and all members below, except for the atomics
+  std::mutex mutex_;  // guards table_, writer_ and all members below, except for the atomics
   std::size_t next_ = 0;
   BenchState state_;
   std::vector<UnderWay> under_way_;  // by worker
-  double next_csv_s_ = 0;
-  double next_flush_s_ = 0;
   std::exception_ptr failure_;
   std::atomic<bool> failed_ = false;
   std::atomic<std::size_t> working_ = workers();

@@ -76,6 +76,12 @@ class Run {
   }
 
  private:
+  struct Answer {
+    std::optional<Solution> solution;  // nullopt on all ranks except 0
+    std::string missing_part_reason;   // why a part of the certificate is missing; "" if none is
+    std::int64_t unresponsive = 0;     // number of ranks that did not respond at the end
+  };
+
   bool is_first() const { return session_.rank() == 0; }
 
   // mpirun passes standard input only to rank 0.
@@ -111,61 +117,61 @@ class Run {
     RunLog rows = rows_of(*log_, a_, start_);
     IncumbentFiles observer(a_.incumbents, a_.checkpoints.incumbent_file(), loaded_->instance,
                             options_.omega, rows);
-    Solution solution = *solve_with(observer);
-    if (unresponsive_ == 0) proof_->write(loaded_->instance, solution, missing_part_reason_);
+    Answer answer = solve_with(observer);
+    Solution& solution = *answer.solution;
+    const bool all_respond = answer.unresponsive == 0;
+    if (all_respond) proof_->write(loaded_->instance, solution, answer.missing_part_reason);
     add_run_facts(solution, app_, a_, start_);
     solution.stats.counts["ranks"] = session_.ranks();
-    if (unresponsive_ > 0) {
-      solution.stats.counts["unresponsive_ranks"] = unresponsive_;
-      log_->warning(without_text());
+    if (!all_respond) {
+      solution.stats.counts["unresponsive_ranks"] = answer.unresponsive;
+      log_->warning(without_text(answer.unresponsive));
     }
     const std::string failure = finish_run(a_, loaded_->instance, solution, *log_);
-    if (unresponsive_ > 0 && failure.empty())
+    if (!all_respond && failure.empty())
       session_.abort(kExitSuccess);  // else unresponsive ranks would prevent the end of this rank
     try {
       report_failures({failure, proof_->failure()});
     } catch (const CommandFailed& failed) {
-      if (unresponsive_ > 0) session_.abort(failed.exit_code());
+      if (!all_respond) session_.abort(failed.exit_code());
       throw;
     }
   }
 
-  std::string without_text() {
+  std::string without_text(std::int64_t unresponsive) {
     return fmt::format("{} of {} ranks did not respond at shutdown; the job ends without them{}",
-                       unresponsive_, session_.ranks(),
+                       unresponsive, session_.ranks(),
                        proof_->log() == nullptr ? "" : ", and without a certificate");
   }
 
   // Collective. If presolve on some rank already gives the answer, no rank searches and rank 0
   // returns the answer; otherwise all ranks search.
-  std::optional<Solution> solve_with(RunObserver& observer) {
+  Answer solve_with(RunObserver& observer) {
     const SharedProblem shared(loaded_->instance, limits_, options_.threads, *memory_);
     const Problem& problem = shared.problem();
     const auto answer = presolve(problem, options_, limits_, observer);
     const auto found = session_.gather(answer ? "an answer" : "");
     if (std::ranges::count(found, "") == session_.ranks()) {
-      auto solution = solve_by_all(problem, observer);
-      if (unresponsive_ > 0) return solution;
+      Answer by_all = solve_by_all(problem, observer);
+      if (by_all.unresponsive > 0) return by_all;
       for (const std::string& failure : session_.gather(proof_->close()))
-        if (missing_part_reason_.empty()) missing_part_reason_ = failure;
-      return solution;
+        if (by_all.missing_part_reason.empty()) by_all.missing_part_reason = failure;
+      return by_all;
     }
-    if (!is_first()) return std::nullopt;
+    if (!is_first()) return {};
     auto solution = answer ? answer : solve(loaded_->instance, options_, limits_, &observer);
-    missing_part_reason_ = proof_->close();
-    return solution;
+    return {std::move(solution), proof_->close()};
   }
 
   // Searches with all ranks. Aborts the job on an error, because it may occur on this rank only,
   // and the other ranks would wait forever. For example, rank 0 may find that the nodes in a
   // checkpoint are damaged.
-  std::optional<Solution> solve_by_all(const Problem& problem, RunObserver& observer) {
+  Answer solve_by_all(const Problem& problem, RunObserver& observer) {
     try {
       const auto network = session_.connect();
-      return solve_distributed(problem, options_, limits_, *network, observer, [] {});
+      return {solve_distributed(problem, options_, limits_, *network, observer, [] {}), ""};
     } catch (UnresponsiveRanks& silence) {
-      unresponsive_ = silence.ranks;
-      return std::move(silence.solution);
+      return {std::move(silence.solution), "", silence.ranks};
     } catch (const InputError& error) {
       print_error(*app_.get_parent(), error.what());
       session_.abort(kExitBadInput);
@@ -189,9 +195,6 @@ class Run {
   std::unique_ptr<LogFormat> log_;
   std::optional<ProofOutput> proof_;
   std::unique_ptr<SharedMemory> memory_;
-  std::string
-      missing_part_reason_;  // on rank 0: why a part of the certificate is missing; "" if none is
-  std::int64_t unresponsive_ = 0;  // number of ranks that did not respond at the end
 };
 
 }  // namespace

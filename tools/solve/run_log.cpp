@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/assert.h"
 #include "model/limits.h"
 
 namespace grove::detail {
@@ -45,9 +46,9 @@ void RunLog::on_incumbent(const Plan&, PlanSource source, const Progress&) {
 
 void RunLog::on_event(RunEvent event, const Progress& reported) {
   Progress progress = reported;
-  if (progress.lower_bound >= kInfiniteCost) progress.lower_bound = bound_;  // infeasible
+  if (progress.lower_bound >= kInfiniteCost) progress.lower_bound = causes_.bound();  // infeasible
   if (importance(event) > importance(event_)) event_ = event;
-  note_bound(progress);
+  causes_.update(progress);
   const bool news = event_ != RunEvent::kProgress || progress.nodes_expanded != last_row_nodes_;
   const bool is_due = row_is_due(progress);
   statistics_are_due_ = is_due || event == RunEvent::kEnd;
@@ -57,19 +58,26 @@ void RunLog::on_event(RunEvent event, const Progress& reported) {
 }
 
 void RunLog::on_outside_bound(ComponentId by) {
-  pending_source_ = by;
+  causes_.outside(by);
 }
 
-// Attributes a rise of the bound to its cause. For expansions on other ranks the cause is only
-// known as "tree", because they report the number of expanded nodes but not the expansions.
-void RunLog::note_bound(const Progress& progress) {
+// For expansions on other ranks the cause is only known as "tree", because they report the number
+// of expanded nodes but not the expansions.
+void RunLog::BoundCauses::update(const Progress& progress) {
   if (progress.lower_bound <= bound_) return;
   const bool is_known = receives_expansions_ || progress.nodes_expanded == 0;
-  const std::optional<ComponentId> outside_source = std::exchange(pending_source_, std::nullopt);
-  raised_by_[outside_source ? name_of(*outside_source)
-             : is_known     ? last_tree_cause_
-                            : "tree"] += progress.lower_bound - bound_;
+  const std::optional<ComponentId> outside_source = std::exchange(pending_, std::nullopt);
+  rises_[outside_source ? name_of(*outside_source)
+         : is_known     ? in_tree_
+                        : "tree"] += progress.lower_bound - bound_;
+  GROVE_CHECK(std::ranges::all_of(rises_, [](const auto& rise) { return rise.second > 0; }),
+              "each cause has raised the bound");
   bound_ = progress.lower_bound;
+}
+
+void RunLog::BoundCauses::expanded(const Expansion& expansion) {
+  receives_expansions_ = true;
+  in_tree_ = expansion.branching ? "branching" : expansion.plan ? in_tree_ : "wdg";
 }
 
 bool RunLog::row_is_due(const Progress& progress) const {
@@ -82,14 +90,15 @@ bool RunLog::row_is_due(const Progress& progress) const {
 }
 
 LogRow RunLog::row_of(const Progress& progress) const {
-  return {event_, source_, progress, seconds(), resident_bytes(), raised_by_};
+  return {event_, source_, progress, seconds(), resident_bytes(), causes_.rises()};
 }
 
 void RunLog::row(const Progress& progress) {
   format_.row(row_of(progress));
-  raised_by_.clear();
+  causes_.clear();
   has_rows_ = true;
   event_ = RunEvent::kProgress;
+  GROVE_CHECK(seconds() >= last_row_s_, "rows are in order of time");
   last_row_s_ = seconds();
   last_row_nodes_ = progress.nodes_expanded;
 }
@@ -109,11 +118,8 @@ void RunLog::on_root(const NodePtr& root) {
   if (const auto row = tree_.root(*root)) format_.root(*row, seconds());
 }
 
-// If the bound rises after this expansion, the expansion is the cause, because it completed the
-// last live node with the old bound.
 void RunLog::on_expanded(const NodePtr& node, const Expansion& expansion, int worker) {
-  receives_expansions_ = true;
-  last_tree_cause_ = expansion.branching ? "branching" : expansion.plan ? last_tree_cause_ : "wdg";
+  causes_.expanded(expansion);
   if (const auto row = tree_.expanded(*node, expansion, worker)) format_.node(*row, seconds());
 }
 

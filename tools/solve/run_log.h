@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -42,7 +43,29 @@ class RunLog : public RunObserver {
   void on_expanded(const NodePtr& node, const Expansion& expansion, int worker) override;
 
  private:
-  void note_bound(const Progress& progress);
+  // Attributes each rise of the lower bound to its cause.
+  class BoundCauses {
+   public:
+    // The lower bound so far.
+    Cost bound() const { return bound_; }
+    // The next rise is due to a bound proven outside the tree search.
+    void outside(ComponentId by) { pending_ = by; }
+    // If the bound rises after this expansion, the expansion is the cause, because it completed the
+    // last live node with the old bound.
+    void expanded(const Expansion& expansion);
+    void update(const Progress& progress);
+    // The rise since the last call of clear(), by cause.
+    const std::map<std::string_view, Cost>& rises() const { return rises_; }
+    void clear() { rises_.clear(); }
+
+   private:
+    Cost bound_ = 0;
+    std::optional<ComponentId> pending_;       // source of the next rise; nullopt: the tree
+    std::string_view in_tree_ = "individual";  // cause if the tree raises the bound
+    bool receives_expansions_ = false;
+    std::map<std::string_view, Cost> rises_;
+  };
+
   bool row_is_due(const Progress& progress) const;
   void row(const Progress& progress);
   void show_progress(const Progress& progress);
@@ -53,16 +76,11 @@ class RunLog : public RunObserver {
   const Clock::time_point start_;
   const Options options_;
   TreeLog tree_;
+  BoundCauses causes_;
   bool has_rows_ = false;
   bool statistics_are_due_ = false;
-  bool receives_expansions_ = false;
-  std::optional<ComponentId>
-      pending_source_;                    // source of the next rise of the bound; nullopt: the tree
   RunEvent event_ = RunEvent::kProgress;  // most important event since the last row
   PlanSource source_ = PlanSource::kTree;
-  std::string_view last_tree_cause_ = "individual";  // cause to log if the tree raises the bound
-  std::map<std::string_view, Cost> raised_by_;       // rise since the last row, by cause
-  Cost bound_ = 0;
   double last_row_s_ = 0;
   std::int64_t last_row_nodes_ = 0;
   double last_progress_s_ = 0;

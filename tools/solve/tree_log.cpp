@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/solve/tree_log.h"
 
+#include "model/assert.h"
+
 namespace grove::detail {
 
 std::int64_t TreeLog::add(const Node& node) {
@@ -22,6 +24,8 @@ std::optional<NodeRow> TreeLog::expanded(const Node& node, const Expansion& expa
   numbers_.erase(known);
   for (std::size_t i = 0; i < expansion.children.size(); ++i)
     row.children[i] = add(*expansion.children[i]);
+  for (std::size_t i = 0; i < expansion.children.size(); ++i)
+    GROVE_CHECK(row.children[i] > row.number, "a child has a larger number than its parent");
   if (--left_ == 0) numbers_.clear();
   return row;
 }
