@@ -36,7 +36,7 @@ RunLog::RunLog(LogFormat& format, Clock::time_point start, const Options& option
     : format_(format), start_(start), options_(options), tree_(options.tree_nodes) {}
 
 double RunLog::seconds() const {
-  return std::chrono::duration<double>(Clock::now() - start_).count();
+  return std::chrono::duration<double>(options_.now() - start_).count();
 }
 
 void RunLog::on_incumbent(const Plan&, PlanSource source, const Progress&) {

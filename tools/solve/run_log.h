@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -26,6 +27,7 @@ class RunLog : public RunObserver {
     // The interval between throttled rows grows with the elapsed time, up to this many seconds.
     double longest_interval_s = std::numeric_limits<double>::infinity();
     std::int64_t tree_nodes = 0;  // log the first `tree_nodes` expanded nodes
+    std::function<Clock::time_point()> now = Clock::now;
   };
   RunLog(LogFormat& format, Clock::time_point start, const Options& options);
 
