@@ -78,9 +78,8 @@ void LoadBalancer::offer(int child, std::vector<message::Surplus> surplus) {
                                          &message::Surplus::bound) == at.surplus.end(),
               "a surplus is in ascending order of bounds");
   GROVE_CHECK(std::ranges::all_of(at.surplus,
-                                  [](const message::Surplus& surplus) {
-                                    return surplus.nodes >= 0 && surplus.next >= 0 &&
-                                           all_of(surplus) > 0;
+                                  [](const message::Surplus& each) {
+                                    return each.nodes >= 0 && each.next >= 0 && all_of(each) > 0;
                                   }),
               "a surplus has no entry without nodes");
   if (!at.surplus.empty()) offers_.insert(best());

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Budgets for nodes and cached results, and what is evicted when memory is short.
 #include "engine/search_memory.h"
 
 #include <malloc.h>

@@ -117,7 +117,7 @@ TEST(IsolatedRank, SendsItsNextNodeOnlyToAnIdleRank) {
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
   r.rank.handle(0, message::AssignNodes{{record_of(*root), record_of(*root)}, kInfiniteCost});
-  const NodePtr taken = r.rank.search().take();
+  const NodePtr taken = r.rank.components().tree().take();
   ASSERT_TRUE(taken);
   const auto kept = r.status_after(0, message::SendNodes{2, 1, false});
   EXPECT_EQ(kept.open, 1);
@@ -134,12 +134,12 @@ TEST(IsolatedRank, MayEndWithAnUnfinishedNode) {
   r.rank.handle(0, message::AssignNodes{{record_of(*root)}, kInfiniteCost});
   Expansion expansion;
   expansion.unfinished = true;
-  r.rank.search().finish(r.rank.search().take(), std::move(expansion), 0);
+  r.rank.components().tree().finish(r.rank.components().tree().take(), std::move(expansion), 0);
   Plan plan;
   plan.cost = root->bound();
   r.rank.handle(0, message::Incumbent{plan});
   EXPECT_EQ(r.rank.nodes().frontier.live(), 0);
-  EXPECT_TRUE(r.rank.search().unfinished()) << "no other rank holds it";
+  EXPECT_TRUE(r.rank.components().tree().unfinished()) << "no other rank holds it";
 }
 
 TEST(IsolatedRank, ReportIntervalGrowsWithTheRun) {
