@@ -407,6 +407,29 @@ TEST(PrimalSearch, ContinuesFromAPlanAdoptedDuringItsFirstAttempts) {
   }
 }
 
+// Small steps, so that the plan is adopted while prioritised planning of a later round is in
+// progress.
+TEST(PrimalSearch, AdoptedPlanEndsALaterRound) {
+  const Instance instance = doors();
+  const Plan good = Search(instance, 1).plans(1500).back();
+  Tuning tuning;
+  tuning.primal_step_work = 20;
+  int adopted = 0;
+  for (std::uint64_t seed = 2; seed < 8; ++seed) {
+    Search search(instance, seed, Techniques::defaults(), tuning);
+    while (search.primal.counts().attempts < 2) search.primal.step(search.limits);
+    if (good.cost >= *search.primal.best_cost()) continue;
+    ++adopted;
+    search.primal.adopt(good);
+    EXPECT_EQ(search.primal.best_cost(), good.cost);
+    const std::int64_t calls = search.primal.counts().low_level_calls;
+    search.primal.step(search.limits);
+    EXPECT_EQ(search.primal.counts().low_level_calls, calls);  // guided LaCAM makes none
+    while (search.primal.counts().attempts < 4) search.primal.step(search.limits);
+  }
+  EXPECT_GT(adopted, 1);
+}
+
 TEST(PrimalSearch, AdoptsABetterPlan) {
   const Instance instance = doors();
   Plan good = [&] { return Search(instance, 1).plans(400).back(); }();
