@@ -154,6 +154,7 @@ class PlanReader {
     if (const auto work = value.find("work"))
       for (std::size_t k = 0; k < work->size(); ++k)
         plan.work.push_back(read_work(work->element(k)));
+    std::ranges::stable_sort(plan.work, {}, &WorkTime::begin);
     return plan;
   }
   WorkTime read_work(const JsonValue& value) const {

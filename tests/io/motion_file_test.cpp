@@ -242,5 +242,18 @@ TEST_F(MotionFile, PlansHoldHeadingsAndWork) {
   EXPECT_EQ(violations[0].message, "agents 'a' and 'b' are both on [1, 0] at time 8");
 }
 
+TEST_F(MotionFile, WorkMayBeListedInAnyOrder) {
+  const Instance given = instance(R"([{"id": "a", "start": [0, 0], "goal": [1, 0]}])",
+                                  R"([{"id": "s", "cell": [0, 0], "agents": ["a"], "duration": 1},
+                                      {"id": "t", "cell": [1, 0], "agents": ["a"], "duration": 2}])");
+  const Solution read = solution(given, R"([{"id": "a", "sequence": ["s", "t"], "cost": 4,
+      "work": [{"task": "t", "begin": 2, "end": 4}, {"task": "s", "begin": 0, "end": 1}],
+      "path": [[0,0],[0,0],[1,0],[1,0],[1,0]]}])",
+                                 4);
+  EXPECT_TRUE(check(given, read).empty());
+  const std::vector<WorkTime> in_order{{0, 0, 1}, {1, 2, 4}};
+  EXPECT_EQ(read.plan->agents[0].work, in_order);
+}
+
 }  // namespace motion_file_test
 }  // namespace grove::detail
