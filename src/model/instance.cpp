@@ -161,6 +161,10 @@ AgentIndex InstanceBuilder::add_agent(AgentSpec spec) {
                               name(*spec.goal), instance_.agent(it->second).id));
   }
 
+  if (spec.start.steps != 0 && (spec.start.steps < 0 || spec.start.steps >= spec.motion.turn_steps))
+    throw InstanceError("start", fmt::format("found {} steps of a turn of {} steps; expected fewer",
+                                             spec.start.steps, spec.motion.turn_steps));
+
   Agent agent{
       .id = spec.id, .goal = spec.goal, .goal_heading = spec.goal_heading, .motion = spec.motion};
   if (spec.motion.turn_steps > 0) {
