@@ -171,7 +171,7 @@ class WrittenFiles(Case):
     def test_counters_are_those_of_the_registry(self):
         """Compares names, titles and meanings with src/model/counters.def, and names with docs/formats.md."""
         text = (ROOT / "src/model/counters.def").read_text(encoding="utf-8")
-        rows = re.findall(r'GROVE_COUNTER\(\w+, "(\w+)", \w+,\s*"([^"]*)",((?:\s*"[^"]*")+)\)', text)
+        rows = re.findall(r'GROVE_COUNTER\(\s*\w+,\s*"(\w+)",\s*\w+,\s*"([^"]*)",((?:\s*"[^"]*")+)\)', text)
         self.assertEqual(len(rows), text.count("\nGROVE_COUNTER("))
         described = load(SCHEMAS / "plan.schema.json")["properties"]["stats"]["properties"]
         formats = (ROOT / "docs/formats.md").read_text(encoding="utf-8")
