@@ -24,6 +24,7 @@ class PreparationWork : public WorkSource {
   std::unique_ptr<WorkItem> next() override {
     return trees_.claim_preparation() ? std::make_unique<PrepareTree>(trees_) : nullptr;
   }
+  bool pays() const override { return false; }
 
  private:
   TreeSupply& trees_;

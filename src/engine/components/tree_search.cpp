@@ -34,6 +34,7 @@ class TreeWork : public WorkSource {
       : WorkSource(account), search_(search), context_(context), worker_(worker) {}
 
   std::unique_ptr<WorkItem> next() override;
+  bool pays() const override { return false; }
   void add_counts(Counters& counters) const override {
     const std::lock_guard lock(counting_);
     counters += counts_.reported;
