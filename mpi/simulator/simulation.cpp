@@ -70,7 +70,8 @@ struct Setting {
 
 struct SimulatedRank {
   SimulatedRank(Setting& setting, int rank)
-      : transport(setting.network, rank, setting.machine, setting.communication),
+      : limits(setting.limits, kNotDue),
+        transport(setting.network, rank, setting.machine, setting.communication),
         member(setting.problem, setting.options, limits, setting.observer, transport,
                setting.stops),
         worker(member.rank().components(), rank),
@@ -80,7 +81,7 @@ struct SimulatedRank {
 
   bool has_work() { return member.rank().components().has_work(); }
 
-  Limits limits;  // one per rank, because each rank cancels its own worker
+  const Limits limits;  // one per rank, because each rank cancels its own worker
   TimedTransport transport;
   RankProcess member;
   Worker worker;

@@ -47,6 +47,9 @@ class Components {
   std::vector<Scheduler::Entry> sources(int worker);
   // True if an idle worker can find a work item.
   bool has_work() const;
+  // False if no node is live in this process: then a call of the tree search determines whether the
+  // next tree is due or the run is over.
+  bool has_live_nodes() const { return context_.nodes.frontier.live() > 0; }
   // Gives memory back if it is short.
   void keep_within_memory();
 

@@ -71,11 +71,13 @@ class WorkerPool {
     called_.notify_all();
   }
 
+  bool may_find_work() const { return components_.has_work() || !components_.has_live_nodes(); }
+
   // Waits until another worker wakes this one or the run has ended. Returns false if this worker
   // must not wait.
   bool park() {
     std::unique_lock lock(mutex_);
-    if (awake_ == 1 || ended_ || components_.over() || components_.has_work()) return false;
+    if (awake_ == 1 || ended_ || components_.over() || may_find_work()) return false;
     --awake_;
     ++parked_;
     called_.wait(lock, [this] { return ended_ || calls_ > 0; });
@@ -91,7 +93,7 @@ class WorkerPool {
   void call_another() {
     {
       const std::lock_guard lock(mutex_);
-      if (parked_ == 0 || !components_.has_work()) return;
+      if (parked_ == 0 || !may_find_work()) return;
       --parked_;
       ++calls_;
     }

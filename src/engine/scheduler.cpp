@@ -45,15 +45,18 @@ bool is_due(WorkSource& source) {
   return claim.is_urgent || (claim.is_open && source.account().has_credit());
 }
 
+// Once the run is over, the lower tiers may still give out items, which are stopped or discarded;
+// the callers choose no further ones.
 std::unique_ptr<WorkItem> Scheduler::choose() {
-  if (bounds_.over()) return nullptr;
-  for (std::size_t i = entries_.size(); i-- > 0;)
-    if (is_due(*entries_[i].source))
-      if (auto item = item_of(i)) return item;
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    if (!entries_[i].source->uses_idle_time()) continue;
+  for (std::size_t i = entries_.size(); i-- > 0;) {
+    const Entry& entry = entries_[i];
+    if (!is_due(*entry.source) || (entry.tier == Tier::kBound && bounds_.over())) continue;
     if (auto item = item_of(i)) return item;
-    if (bounds_.over()) break;  // for lack of nodes
+  }
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const Entry& entry = entries_[i];
+    if (!entry.source->uses_idle_time() || (entry.tier > Tier::kTree && bounds_.over())) continue;
+    if (auto item = item_of(i)) return item;
   }
   return nullptr;
 }

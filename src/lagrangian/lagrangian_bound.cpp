@@ -102,10 +102,11 @@ void LagrangianBound::end_pricing() {
 }
 
 void LagrangianBound::note_best_multipliers() {
-  best_.multipliers.clear();
+  std::vector<RowMultiplier> noted;
   for (Multipliers::RowId id = 0; id < multipliers().count(); ++id)
     if (multipliers().multiplier(id) > 0)
-      best_.multipliers.push_back({multipliers().row(id), multipliers().multiplier(id)});
+      noted.push_back({multipliers().row(id), multipliers().multiplier(id)});
+  best_.multipliers = std::move(noted);
 }
 
 bool LagrangianBound::update(Cost cutoff, const Limits& limits, std::int64_t& work) {

@@ -183,9 +183,11 @@ TEST_F(SchedulerTest, IdleTimeGoesToTheFirstRegisteredComponentThatUsesIt) {
   EXPECT_EQ(turn(), "none");
 }
 
-TEST_F(SchedulerTest, NothingIsChosenWhenTheRunIsOver) {
-  primal.claim = {.is_open = true, .is_urgent = true};
+TEST_F(SchedulerTest, NoBoundAndNoIdleWorkIsChosenWhenTheRunIsOver) {
+  second.claim = {.is_open = true, .is_urgent = true};
   bounds.is_over = true;
+  EXPECT_EQ(turn(), "tree");
+  tree.items = 0;
   EXPECT_EQ(turn(), "none");
 }
 

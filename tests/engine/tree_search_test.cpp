@@ -59,7 +59,7 @@ TEST_F(TreeSearchTest, RefillsNodesOnlyWhenNoneIsLive) {
   EXPECT_FALSE(search().has_work());
   EXPECT_EQ(source.refills, 0);
   search().finish(taken, {}, 0);
-  EXPECT_TRUE(search().has_work()) << "a call shows that there is none";
+  EXPECT_FALSE(components().has_live_nodes()) << "a call shows that there is none";
   source.next = child(9);
   EXPECT_EQ(bound_taken(), 9);
   EXPECT_EQ(source.refills, 1);

@@ -58,7 +58,10 @@ TEST(InstanceBuilder, RefusesBadAgents) {
   EXPECT_EQ(refused_field([&] { b.add_agent("b", {0, 1}, std::nullopt); }), "start");
   EXPECT_EQ(refused_field([&] { b.add_agent("b", {-1, 0}, std::nullopt); }), "start");
   EXPECT_EQ(refused_field([&] { b.add_agent("b", {1, 0}, Position{3, 0}); }), "goal");
-  AgentSpec turning{.id = "b", .start = {.place = 1}, .motion = {.turn_steps = 2}};
+  AgentSpec turning;
+  turning.id = "b";
+  turning.start.place = 1;
+  turning.motion.turn_steps = 2;
   turning.start.to = Heading::kEast;
   turning.start.steps = 2;
   EXPECT_EQ(refused_field([&] { b.add_agent(turning); }), "start") << "the turn has only 2 steps";

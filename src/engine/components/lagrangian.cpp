@@ -136,6 +136,7 @@ class LagrangianOwner : public Component {
   std::atomic<bool> is_over_{false};
   mutable std::mutex making_;
   std::unique_ptr<PricingQueue> queue_;  // made when first due; guarded by making_
+  std::mutex posting_;
   std::atomic<int> rounds_{0};
 
   // Of the communicating thread.
@@ -172,7 +173,9 @@ void LagrangianOwner::make() {
   is_over_ = queue_ == nullptr;
 }
 
+// Results are posted in the order in which they are read.
 void LagrangianOwner::post_results() {
+  const std::lock_guard lock(posting_);
   const PricingQueue& queue = *this->queue();
   rounds_ = queue.rounds();
   if (queue.ended()) is_over_ = true;

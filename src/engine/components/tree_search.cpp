@@ -159,7 +159,7 @@ std::unique_ptr<WorkSource> TreeSearch::source(int worker) {
 }
 
 bool TreeSearch::has_work() const {
-  return context_.nodes.frontier.open() > 0 || context_.nodes.frontier.live() == 0;
+  return context_.nodes.frontier.open() > 0;
 }
 
 NodePtr TreeSearch::take() {
