@@ -64,7 +64,7 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
   LocalNodes nodes;
   RunState run(problem, options, limits, observer, nodes.pool, nodes);
   LocalCheckpoints checkpoints(options, limits, run, nodes);
-  Counters counters;  // of workers that are already destroyed
+  Counters counters;  // of workers that have been destroyed
   std::optional<Components> components;
   std::optional<Workers> workers;
   run.run_events().set_statistics_source([&] {
