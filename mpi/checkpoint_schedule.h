@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The checkpoints of a distributed search: when each begins, and the one in progress.
+// The checkpoints of a distributed search: their schedule, and the one in progress.
 #pragma once
 
 #include <optional>
@@ -27,12 +27,12 @@ class CheckpointSchedule {
         children_(children),
         timer_(checkpoints, limits) {}
 
-  // Writes no checkpoint from now on, because the run is not restored completely.
+  // Starts no checkpoint from now on. Called if the run is not restored completely.
   void disable() { enabled_ = false; }
   // Starts a due checkpoint if none is in progress.
   void update();
   bool in_progress() const { return current_.has_value(); }
-  // Aborts the checkpoint in progress, which must exist. No other one is written at the end.
+  // Aborts the checkpoint in progress, which must exist. Afterwards no last checkpoint is written.
   void abort();
 
   // Handles a part of the checkpoint in progress. Ignores it if that checkpoint was aborted.

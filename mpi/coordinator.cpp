@@ -57,12 +57,12 @@
 // *Learned bounds* are sent from rank to rank (bound_broadcast.h). A learned bound is never a node
 // and is valid on every rank (search/learned_bounds.cpp). No rank waits for one or replies to one.
 //
-// *Remote pricing.* Rank 0 computes the Lagrangian bound in addition to searching its nodes. It
-// requests subproblem values under its multipliers from other ranks. Each request is for some of
-// the agents; a rank gets the next request after it has replied. Rank 0 drops a reply that is late
-// or has other multipliers (remote_pricing.cpp), and computes missing values itself. Therefore no
-// part of this protocol waits for subproblem values, and no bound depends on their order of
-// arrival. Rank 0 reports the bounds that it proves by these values in its statuses.
+// *Remote pricing.* Rank 0 computes the Lagrangian bound and also searches its nodes. It requests
+// subproblem values under its multipliers from other ranks. Each request is for some of the agents;
+// a rank gets the next request after it has replied. Rank 0 drops a reply that is late or has other
+// multipliers (remote_pricing.cpp), and computes missing values itself. Therefore no part of this
+// protocol waits for subproblem values, and no bound depends on their order of arrival. Rank 0
+// reports the bounds that it proves by these values in its statuses.
 //
 // *Unresponsive ranks.* The latest status of an unresponsive rank still covers its nodes.
 // Therefore, if a limit was reached and no message has arrived for kMaxSilence since then, the
@@ -173,7 +173,7 @@ void Coordinator::handle(int from, message::Message&& message) {
 }
 
 void Coordinator::update(int child, message::Status status) {
-  GROVE_CHECK(!ended(), "a child reports nothing after it has finished");
+  GROVE_CHECK(!ended(), "no child reports after all have finished");
   load_balancer_.update(child, status);
   for (const message::BatchReceived& taken : status.taken) {
     load_balancer_.arrived(taken.by);
@@ -212,8 +212,8 @@ void Coordinator::leave(const message::RankFinished& message) {
   if (ended()) children_.send_message_counts({statistics_.messages()});
 }
 
-// The last status of an unresponsive rank stays valid. This rank is never counted, because its
-// worker can be in a long step.
+// The last status of an unresponsive rank stays valid. Rank 0 is never counted, because its worker
+// can be in a long step.
 std::int64_t Coordinator::check_unresponsive_ranks() {
   if (ended() || !limits_.stop_requested()) return 0;
   const Clock::time_point now = limits_.now();

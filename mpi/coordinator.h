@@ -74,7 +74,7 @@ class Coordinator {
     // The limit counts as reached at the first call.
     void limit_is_reached(Clock::time_point now) { limit_at_ = limit_at_.value_or(now); }
     Clock::duration since_limit(Clock::time_point now) const { return now - *limit_at_; }
-    // Silence before the limit does not count, because possibly there was nothing to report.
+    // Silence before the limit does not count, because there may have been nothing to report.
     Clock::duration silence(Clock::time_point now) const {
       return now - std::max(last_message_at_, *limit_at_);
     }

@@ -7,7 +7,7 @@ namespace grove::detail {
 
 void Custody::keep(int to, const std::vector<NodePtr>& nodes) {
   Peer& peer = peers_[to];
-  GROVE_CHECK(!peer.custody.contains(peer.sent + 1), "a batch is sent once");
+  GROVE_CHECK(!peer.custody.contains(peer.sent + 1), "a batch is sent before the next one is kept");
   peer.custody[peer.sent + 1] = nodes;
   nodes_ += std::ssize(nodes);
 }

@@ -84,7 +84,7 @@ bool ParentLink::is_urgent(const message::Status& status) const {
 bool ParentLink::report(message::Status status, double now) {
   GROVE_CHECK(status.expanded >= last_sent_.expanded && status.assigned >= last_sent_.assigned &&
                   status.epoch >= last_sent_.epoch && status.proven >= last_sent_.proven,
-              "a status never goes back");
+              "the counts of a status never fall");
   GROVE_CHECK(now >= last_sent_at_, "statuses are reported in order of time");
   reports_at_ = kNoReport;
   if (!urgent_ && status == last_sent_) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Learned bounds between the cache of this rank and other ranks.
+// Exchange of learned bounds between the cache of this rank and other ranks.
 #pragma once
 
 #include <cstdint>

@@ -59,7 +59,7 @@ void LoadBalancer::update(int child, const message::Status& status) {
                                           [](std::size_t sum, const View& view) {
                                             return sum + view.requests.size();
                                           }),
-      "the list has the requests of all children");
+      "the list holds the requests of all children");
   offer(child, status.surplus);
 }
 
@@ -116,7 +116,7 @@ std::optional<LoadBalancer::Transfer> LoadBalancer::next() {
     if (nodes == 0) continue;
     const Transfer transfer{from, to, std::min(nodes, tuning_.transfer_nodes), !busy};
     GROVE_CHECK(from != child && transfer.nodes > 0,
-                "a transfer takes nodes from another child than the one that gets them");
+                "a transfer moves one node or more between two different children");
     take(from, transfer.nodes);
     const bool is_first = awaiting_.insert(to).second;
     GROVE_CHECK(is_first, "a rank awaits at most one transfer");

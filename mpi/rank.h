@@ -60,8 +60,8 @@ class Rank {
                   : std::min(parent_.reports_at(), learned_bounds_.next_send_time());
   }
 
-  // Sends the current statistics, including `counters`, those of the workers. Must not be called
-  // after send_finished().
+  // Sends the current statistics, including `counters`, the counters of the workers. Must not be
+  // called after send_finished().
   void send_statistics(const Counters& counters);
   // True if the workers must end. The caller calls send_finished() with their counts after they
   // have ended.
@@ -82,12 +82,12 @@ class Rank {
     Trees trees;                             // must outlive everything that holds their nodes
     std::map<std::uint32_t, NodePtr> roots;  // by tree number
   };
-  // On a rank the coordinator instantiates the trees and observes the run.
+  // Placeholders, because the coordinator supplies the trees and observes the run.
   struct AtCoordinator {
     TreeSupply trees;       // supplies none
     WorkObserver observer;  // does nothing
   };
-  // What the rank has handled of the coordinator's orders.
+  // Numbers of the coordinator's orders that the rank has handled.
   struct Handled {
     std::int32_t epoch = 0;     // Restart messages
     std::int64_t assigned = 0;  // AssignNodes messages

@@ -30,7 +30,7 @@ void RankNodes::update(int child, message::Status status) {
       status.epoch > epoch_)
     throw std::invalid_argument("coordinator: status does not match the messages to the rank");
   GROVE_CHECK(status.expanded >= latest.expanded && status.proven >= latest.proven,
-              "a child's expanded nodes and proven bound never fall");
+              "a child's number of expanded nodes and proven bound never fall");
   GROVE_CHECK(status.live || status.open == 0, "a child without live nodes has no open one");
   bounds_.insert(status.bound);
   erase_bound(latest.bound);

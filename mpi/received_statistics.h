@@ -24,7 +24,7 @@ class ReceivedStatistics {
   // True if `rank` has finished.
   bool has_finished(int rank) const { return finished_.statistics.ranks.contains(rank); }
   std::int64_t finished_ranks() const { return std::ssize(finished_.statistics.ranks); }
-  // By rank: the number of messages that the finished ranks have sent to it directly.
+  // By receiving rank: number of messages that the finished ranks have sent to it directly.
   const std::map<std::int32_t, std::int64_t>& messages() const { return finished_.messages; }
 
   // Returns the final statistics of the ranks that have finished and the latest statistics of the

@@ -24,13 +24,13 @@ void Assignments::set_todo(std::vector<std::size_t> todo) {
   todo_ = std::move(todo);
   std::vector<bool> seen(runs_.size());
   for (const std::size_t run : todo_) {
-    GROVE_CHECK(run < seen.size() && !seen[run], "each run is to do at most once");
+    GROVE_CHECK(run < seen.size() && !seen[run], "each run is listed at most once");
     seen[run] = true;
   }
 }
 
 std::size_t Assignments::start(int leader, double now) {
-  GROVE_CHECK(any_waiting(), "only a run that waits is assigned");
+  GROVE_CHECK(any_waiting(), "only a waiting run is assigned");
   const std::size_t run = todo_[next_++];
   const bool is_idle = in_progress_.try_emplace(leader, entries_[run].id, now).second;
   GROVE_CHECK(is_idle, "a group solves one instance at a time");

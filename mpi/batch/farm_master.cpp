@@ -98,7 +98,7 @@ void FarmMaster::check_runs() const {
       state_.done() + in_progress + static_cast<std::int64_t>(assignments_.waiting());
   GROVE_CHECK(known == state_.total || (stopping_ && known < state_.total),
               "each run waits, is in progress or is done");
-  GROVE_CHECK(dismissed_ + in_progress <= state_.groups, "a group in progress is not dismissed");
+  GROVE_CHECK(dismissed_ + in_progress <= state_.groups, "no dismissed group solves an instance");
 }
 
 bool FarmMaster::has_work() const {

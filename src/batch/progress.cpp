@@ -28,7 +28,7 @@ std::optional<double> seconds_left(const Workload& work) {
   if (work.left == 0) return 0;
   const auto each = seconds_each(work);
   if (!each) return std::nullopt;
-  GROVE_CHECK(work.workers > 0, "some worker solves the pieces that are left");
+  GROVE_CHECK(work.workers > 0, "at least one worker solves the pieces that are left");
   return *each * std::max(1.0, static_cast<double>(work.left) / work.workers);
 }
 

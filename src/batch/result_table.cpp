@@ -136,7 +136,7 @@ std::vector<std::size_t> ResultTable::begin(const std::vector<Run>& runs) {
   }
   erase_rows_of(pairs);
   GROVE_CHECK(std::ranges::none_of(left, [&](std::size_t run) { return find(runs[run]); }),
-              "no run that is to do has a row");
+              "no run to do has a row");
   defer_started_runs(left, runs);
   return left;
 }

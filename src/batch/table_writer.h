@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes rows to a result table, with limited rates of flushes and of the file for spreadsheets.
+// Writes rows to a result table. Limits how often it flushes and how often it rewrites the CSV
+// file.
 #pragma once
 
 #include <functional>
@@ -12,9 +13,9 @@ namespace grove::detail::batch {
 
 // Minimum intervals in seconds. 0: at every write.
 struct WriteIntervals {
-  double flush_s = 0;  // flushes take longer than a short run; after a crash of the machine, runs
+  double flush_s = 0;  // a flush takes longer than a short run; after a crash of the machine, runs
                        // whose rows were not flushed are repeated
-  double csv_s = 0;    // the CSV file is rewritten as a whole
+  double csv_s = 0;    // each write rewrites the whole CSV file
 };
 
 // One thread at a time.

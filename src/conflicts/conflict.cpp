@@ -12,7 +12,8 @@
 namespace grove::detail {
 
 Split split(const Conflict& c) {
-  GROVE_ASSERT(c.first >= 0 && c.first < c.second, "a conflict must have two agents");
+  GROVE_ASSERT(c.first >= 0 && c.first < c.second,
+               "a conflict has two agents, the smaller index first");
   if (c.is_following()) {
     // Either the leading agent is not on the place one step before the conflict, or the follower is
     // not on it at the time of the conflict.
@@ -107,7 +108,7 @@ void ConflictFinder::add_vertex_conflicts(AgentIndex agent, Time time,
   const bool was_there = time > 0 && before_[agent] == place;
   const auto report = [&](AgentIndex other) {
     GROVE_ASSERT(other != agent && now_[other] == place,
-                 "two agents with a vertex conflict are on one place");
+                 "two agents with a vertex conflict are on the same place");
     conflicts.push_back({std::min(agent, other), std::max(agent, other), place, kNoPlace, time});
   };
   for (AgentIndex other = also_there[agent]; other >= 0; other = also_there[other])

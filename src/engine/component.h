@@ -31,7 +31,7 @@ namespace grove::detail {
 
 class SearchMemory;
 
-// Objects that work items of one worker use, so that each worker has its own. One thread at a time.
+// Objects that only the work items of one worker use. One thread at a time.
 class Workspace {
  public:
   Workspace() = default;
@@ -42,8 +42,8 @@ class Workspace {
   virtual Expander& expander() = 0;
 };
 
-// One unit of scheduling, of about a millisecond. A worker, or an engine that drives it, calls
-// perform(), publish() and commit(), in this order.
+// Unit of scheduling, of about a millisecond. The worker, or the loop that drives the workers,
+// calls perform(), publish() and commit(), in this order.
 class WorkItem {
  public:
   WorkItem() = default;
@@ -51,21 +51,21 @@ class WorkItem {
   WorkItem& operator=(const WorkItem&) = delete;
   virtual ~WorkItem() = default;
 
-  // Name of this kind of items, for logs and tests.
+  // Name of this kind of item, for logs and tests.
   virtual std::string_view name() const = 0;
-  // Does the work. Reads shared data, but changes none except the component's own data that no
-  // other item in progress uses, so that items can be performed concurrently. Any thread.
+  // Does the work. Reads shared data, but changes only the workspace and data of the component that
+  // no other item in progress uses, so that items can be performed concurrently. Any thread.
   virtual void perform(Workspace& workspace) = 0;
   // Makes new cached results visible to other workers. Thread-safe.
   virtual void publish() {}
   // Posts plans and bounds (SharedBounds), and makes all other results visible.
   virtual void commit() = 0;
-  // Discards the results of perform(), because the run ends; commit() then posts none.
+  // Discards the results of perform(), because the run ends. Afterwards commit() posts none.
   virtual void abandon() {}
 
   // Effort of perform(), by which the engine divides its time; see engine/scheduler.cpp.
   std::int64_t effort() const { return effort_; }
-  // Effort that estimates the duration of perform(), for simulations.
+  // Estimated duration of perform(), in the unit of effort, for simulations.
   double duration() const { return duration_; }
 
   // For deterministic runs, in which a worker has several items in a round: true if the worker may
@@ -87,16 +87,16 @@ class WorkItem {
 
   std::int64_t effort_ = 0;
   double duration_ = 0;
-  std::size_t entry_ = 0;  // the scheduler's number of the component
+  std::size_t entry_ = 0;  // index of the component's entry in the scheduler
 };
 
 // How urgently a component needs effort; see engine/scheduler.cpp.
 struct Claim {
-  bool is_open = false;    // it has a use for effort
-  bool is_urgent = false;  // it needs effort before it has earned it
+  bool is_open = false;    // it can use the effort that it has earned
+  bool is_urgent = false;  // it needs effort even if it has not earned any
 };
 
-// Share of the effort that a component asks for; see engine/scheduler.cpp.
+// Effort that a component asks for per unit of effort of lower tiers; see engine/scheduler.cpp.
 struct Share {
   double wanted = 0;
   double floor = 0;
@@ -114,7 +114,7 @@ class WorkSource {
 
   // Effort of lower tiers before the component gets its first turn.
   virtual std::int64_t start() const { return 0; }
-  // Called only after start() was reached.
+  // Called only once the effort of lower tiers has reached start().
   virtual Claim claim() { return {}; }
   // `base`: effort of lower tiers so far.
   virtual Share share(std::int64_t /*base*/) const { return {}; }
@@ -134,9 +134,9 @@ class WorkSource {
   EffortAccount& account_;
 };
 
-// Tiers of components: a component earns its share of the effort of the components of lower tiers.
+// Tiers of components. A component earns effort in proportion to the effort of lower tiers.
 enum class Tier : std::uint8_t {
-  kTree,    // takes what the others leave
+  kTree,    // gets the effort that the others leave
   kPrimal,  // finds plans
   kBound,   // proves bounds outside the tree search
 };
@@ -149,8 +149,8 @@ struct ComponentMessage {
 
 // A component in one process of a run. Thread-safe, except where a function says otherwise.
 //
-// Checkpoints contain the nodes, the incumbent and the lower bound. All other state of components
-// is made again in a resumed run.
+// Checkpoints contain the nodes, the incumbent and the lower bound. A resumed run rebuilds all
+// other state of components.
 class Component {
  public:
   Component() = default;
@@ -160,16 +160,16 @@ class Component {
 
   virtual Tier tier() const = 0;
   // Returns the work for a worker; nullptr if this worker gets none. `worker`: number of the worker
-  // within the run, from 0. Before the search, on one thread.
+  // within the run, from 0. Called before the search, on one thread.
   virtual std::unique_ptr<WorkSource> source(int worker) = 0;
   // True if there may be work for an idle worker that found none before.
   virtual bool has_work() const { return false; }
 
   // Adds the counts of this process, except those of WorkSource::add_counts().
   virtual void add_counts(Counters& /*counters*/) const {}
-  // Adds the memory that the component holds, by kind. (SearchMemory counts nodes and caches.)
+  // Adds the memory that the component holds, by kind. (The tree search adds nodes and caches.)
   virtual void add_memory(MemoryUse& /*memory*/) const {}
-  // Gives memory back if the process is short of it. Called between work items.
+  // Frees memory if the process is short of it. Called between work items.
   virtual void keep_within_memory() {}
   // Logs what proves the component's bound. Called after the search.
   virtual void log_proof(ProofLog& /*proof*/) const {}
@@ -184,7 +184,7 @@ class Component {
 // Results that components in one process offer to each other. Thread-safe.
 class SharedResults {
  public:
-  // The latest dual solution of the Lagrangian bound; nullptr: none.
+  // The latest dual solution of the Lagrangian bound; nullptr if there is none yet.
   std::shared_ptr<const DualSolution> dual_solution() const {
     const std::lock_guard lock(mutex_);
     return dual_solution_;
@@ -199,12 +199,13 @@ class SharedResults {
   std::shared_ptr<const DualSolution> dual_solution_;
 };
 
-// What a component gets from the engine. All references outlive the component.
+// Data and interfaces that the engine gives to each component. All references outlive the
+// component.
 struct ComponentContext {
   const Problem& problem;
   const SolveOptions& options;
   const Limits& limits;
-  const AgentStopsCache& stops;  // to copy: the agents' stops that were computed before
+  const AgentStopsCache& stops;  // the agents' stops computed before the search, to be copied
   SharedBounds& bounds;
   LocalNodes& nodes;
   SearchMemory& memory;

@@ -22,7 +22,7 @@ constexpr std::array kMakers = {
 }  // namespace
 
 void Component::receive(int /*from*/, const ComponentMessage& /*message*/) {
-  throw std::invalid_argument("component: receives no messages");
+  throw std::invalid_argument("component: message for a component that receives none");
 }
 
 Components::Components(const Problem& problem, const SolveOptions& options, const Limits& limits,
@@ -85,7 +85,8 @@ std::vector<std::pair<int, ComponentMessage>> Components::take_messages() {
 
 void Components::receive(int from, const ComponentMessage& message) {
   Component* const component = components_.at(static_cast<std::size_t>(message.component)).get();
-  if (component == nullptr) throw std::invalid_argument("component: not enabled");
+  if (component == nullptr)
+    throw std::invalid_argument("component: message for a component that is not enabled");
   component->receive(from, message);
 }
 

@@ -13,8 +13,8 @@
 
 namespace grove::detail {
 
-// Makes the component of a process; nullptr: the run does without it. components.def registers
-// these functions.
+// Each function makes a component of a process. Returns nullptr if the run does not use it.
+// components.def registers these functions.
 std::unique_ptr<Component> make_tree_search(const ComponentContext& context);
 std::unique_ptr<Component> make_primal_component(const ComponentContext& context);
 std::unique_ptr<Component> make_tree_preparation(const ComponentContext& context);
@@ -27,8 +27,8 @@ struct ProcessPlace {
   int ranks = 1;
 };
 
-// The components that the options of a run enable, and what they share. Thread-safe, except where a
-// function says otherwise.
+// The components that the options of a run enable, and the data that they share. Thread-safe,
+// except where a function says otherwise.
 class Components {
  public:
   // All arguments must outlive this object, except `stops`, which is copied. `stops`: the agents'
@@ -43,20 +43,21 @@ class Components {
   // The tree search, whose nodes ranks send to each other.
   TreeSearch& tree() { return *tree_; }
 
-  // Returns the work for worker number `worker` of the run. Before the search, on one thread.
+  // Returns the work for worker number `worker` of the run. Must be called before the search, on
+  // one thread.
   std::vector<Scheduler::Entry> sources(int worker);
-  // True if an idle worker can find a work item.
+  // True if there may be work for an idle worker that found none before.
   bool has_work() const;
   // False if no node is live in this process: then a call of the tree search determines whether the
   // next tree is due or the run is over.
   bool has_live_nodes() const { return context_.nodes.frontier.live() > 0; }
-  // Gives memory back if it is short.
+  // Frees memory if it is short.
   void keep_within_memory();
 
   // Adds the counts of this process, except those of its workers.
   void add_counts(Counters& counters) const;
   MemoryUse memory_use() const;
-  // Logs what proves the components' bounds. After the search.
+  // Logs what proves the components' bounds. Must be called after the search.
   void log_proof(ProofLog& proof) const;
 
   // Messages to and from the same components of other processes; see Component. Only the

@@ -9,13 +9,14 @@
 
 namespace grove::detail {
 
-// Effort in the unit of model/effort.h, so that a run is repeatable. The policy is at the head of
-// scheduler.cpp. Thread-safe.
+// Counts effort in the unit of model/effort.h, not time, so that a run is repeatable. The policy is
+// at the head of scheduler.cpp. Thread-safe.
 class EffortAccount {
  public:
   struct Terms {
-    // True: effort that a component spends although it has no credit, because its worker has
-    // nothing else to do, starts a new account. False: it counts as debt.
+    // A component can spend effort without credit, because its worker has nothing else to do. True:
+    // each call of spend() first cancels the debt, so only the effort spent last can leave one.
+    // False: debt accumulates.
     bool forgives_debt = false;
     // Maximum effort in this process per unit of effort of lower tiers in this process; nullopt: no
     // maximum.

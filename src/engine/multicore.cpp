@@ -119,7 +119,7 @@ struct Unit {
 
 // Chooses the work items of a round: up to kMaxTurnsPerRound per worker. A worker gets no further
 // item after one that does not allow it (WorkItem::allows_next()). With more items per round the
-// nodes would be chosen less well; with fewer, threads would wait for each other more.
+// choice of nodes would be worse. With fewer, threads would wait for each other more often.
 std::vector<Unit> choose_round(std::span<const std::unique_ptr<Worker>> workers) {
   std::vector<Unit> units;
   std::vector<bool> continues(workers.size(), true);

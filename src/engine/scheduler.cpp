@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// *Policy.* Each component has an account (effort_account.h). For each unit of effort that a
-// worker spends in lower tiers, the component earns
+// *Policy.* Each component has an account (effort_account.h). For each unit of effort that workers
+// spend in lower tiers, the component earns
 //
-//   rate = min(cap, max(floor, wanted)),
+//   rate = min(cap, max(floor, wanted)).
 //
-// and it pays for its own effort, except for an item after which pays() is false. A component is
-// due if the effort of lower tiers has reached start(), and
+// It pays for its own effort, except for an item after which pays() is false. A component is due if
+// the effort of lower tiers has reached start(), and
 // - its claim is urgent, or
 // - its claim is open and it has credit: earned >= spent.
 //
@@ -13,17 +13,19 @@
 // has an item, it asks all components that use idle time, the one registered first first. The tree
 // search is registered first and is never due, so it gets all time that the others do not claim.
 //
-// | component   | tier   | start                     | wanted                  | floor | cap    |
-// |-------------|--------|---------------------------|-------------------------|-------|--------|
-// | tree        | tree   |                           |                         |       |        |
-// | primal      | primal | kStartWork                | 8 x^3, at least 1/32    | 0, 1  | 1/4..8 |
-// | preparation | primal | only in idle time         |                         |       |        |
-// | lagrangian  | bound  | lagrangian_start_work [a] | lagrangian_max_share    |       | ranks  |
-// | joint       | bound  | joint_start_work          | joint_max_share         |       |        |
+// | component   | tier   | start                     | wanted                   | floor | cap    |
+// |-------------|--------|---------------------------|--------------------------|-------|--------|
+// | tree        | tree   | never due                 |                          |       |        |
+// | primal      | primal | kStartWork                | 8 x^3, at least 1/32 [a] | 0, 1  | 1/4..8 |
+// | preparation | primal | never due                 |                          |       |        |
+// | lagrangian  | bound  | lagrangian_start_work [b] | lagrangian_max_share [c] | 0     | wanted |
+// | joint       | bound  | joint_start_work          | joint_max_share          | 0     | wanted |
 //
-// In this table x is (effort at the component's last gain) / (its effort so far). The formulas of
-// each component are at the head of its file in engine/components. [a] Ten times as much without a
-// plan.
+// The formulas of each component are at the head of its file in engine/components.
+// [a] With a plan, where x = (effort at the component's last gain) / (its effort so far).
+// [b] Ten times as much without a plan.
+// [c] Times the number of ranks, on rank 0. On other ranks its claim is urgent after the first
+//     request from rank 0.
 #include "engine/scheduler.h"
 
 #include <algorithm>
@@ -68,14 +70,14 @@ std::unique_ptr<WorkItem> Scheduler::item_of(std::size_t entry) {
 }
 
 void Scheduler::charge(const WorkItem& item) {
-  GROVE_CHECK(item.effort() >= 0, "the effort of an item is counted");
+  GROVE_CHECK(item.effort() >= 0, "the effort of an item is not negative");
   const Entry& own = entries_.at(item.entry_);
   if (own.source->pays()) own.source->account().spend(item.effort());
   for (const Entry& other : entries_) {
     if (other.tier <= own.tier) continue;
     EffortAccount& account = other.source->account();
     const double rate = rate_of(other.source->share(account.base() + item.effort()));
-    GROVE_CHECK(rate >= 0, "no component loses effort to another one");
+    GROVE_CHECK(rate >= 0, "no component earns effort at a negative rate");
     account.earn(item.effort(), rate);
   }
 }

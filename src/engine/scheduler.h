@@ -37,7 +37,7 @@ class Scheduler {
   const SharedBounds& bounds_;
 };
 
-// Returns true if the component is due, in the order of the conditions of the policy.
+// Returns true if the component is due. Tests the conditions in the order of the policy.
 bool is_due(WorkSource& source);
 
 // Effort that the component earns per unit of effort of lower tiers.

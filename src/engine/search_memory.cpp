@@ -19,14 +19,14 @@ constexpr std::size_t kMaxCacheBytes = std::size_t{1} << 29;  // max. bytes of c
 constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t kMinCacheBytes = 64 << 10;  // bytes; smaller budgets bring no benefit
 
-// Bytes left below `limit`.
+// Bytes left below `limit`; 0 above it.
 std::size_t room(std::size_t limit) {
   return limit - std::min(limit, resident_bytes());
 }
 
 }  // namespace
 
-// Memory budgets of a run for the two kinds of memory that the search can evict: nodes and the
+// Memory budgets of a process for the two kinds of memory that the search can free: nodes and the
 // expanders' caches. One thread at a time.
 //
 // Problem: the memory limit applies to the resident set, but the resident set cannot be controlled

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory of a process that the search can give back: nodes and cached results.
+// Memory of a process that the search can free: nodes and cached results.
 #pragma once
 
 #include <atomic>
@@ -18,8 +18,8 @@ namespace grove::detail {
 
 class MemoryBudgets;
 
-// The results that the expanders of a process share, and the budgets for them and for the nodes.
-// Thread-safe.
+// The cached results that the expanders of a process share, and the memory budgets for them and for
+// the nodes. Thread-safe.
 class SearchMemory {
  public:
   // All arguments must outlive this object.
@@ -29,7 +29,7 @@ class SearchMemory {
 
   // Evicts nodes and cached results if memory is short.
   void keep_within_memory();
-  // Cached results, for the expanders.
+  // The cached results; see keep_within_memory() in the .cpp for when they are replaced.
   std::shared_ptr<SharedCache> cache() const;
   // True if the cache has room for results from other ranks.
   bool has_room_for_facts() const;

@@ -32,8 +32,8 @@ class SharedBounds {
   // it bounds only the plans in the nodes of that process.
   virtual Cost lower_bound() const = 0;
 
-  // Offers a plan. If it is better than the incumbent, it is checked and becomes the incumbent.
-  // Where the bounds are held, throws std::logic_error if the checker refuses the plan.
+  // Offers a plan. If it is better than the incumbent, it is checked and becomes the incumbent. In
+  // the process that holds the bounds, throws std::logic_error if the checker refuses the plan.
   virtual void post(Plan plan, PlanSource source) = 0;
   // Reports a lower bound proven outside the tree search on all plans that cost less than cutoff()
   // at the time of the proof. kInfiniteCost: no such plan exists.

@@ -64,7 +64,7 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
   LocalNodes nodes;
   RunState run(problem, options, limits, observer, nodes.pool, nodes);
   LocalCheckpoints checkpoints(options, limits, run, nodes);
-  Counters counters;  // of workers that are already destroyed
+  Counters counters;  // of workers that have been destroyed
   std::optional<Components> components;
   std::optional<Workers> workers;
   run.run_events().set_statistics_source([&] {
@@ -72,7 +72,11 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
     if (workers) workers->add_counts(so_far);
     if (components) components->add_counts(so_far);
     run.shared_bounds().add_counts(so_far);
-    return RunStatistics{{so_far.named(), components ? components->memory_use() : MemoryUse()}, {}};
+    const auto before_search = [] {
+      return MemoryUse{.process = static_cast<std::int64_t>(resident_bytes())};
+    };
+    return RunStatistics{{so_far.named(), components ? components->memory_use() : before_search()},
+                         {}};
   });
   bool begun = false;
   try {

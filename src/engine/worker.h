@@ -10,8 +10,8 @@
 
 namespace grove::detail {
 
-// Performs work items of the components of the engine; its scheduler chooses them. One thread at a
-// time, except where a function says otherwise.
+// Performs work items of the components of the engine, which the scheduler of the worker chooses.
+// One thread at a time, except where a function says otherwise.
 class Worker {
  public:
   // `components` must outlive this object. `number`: number of the worker within the run, from 0.

@@ -176,7 +176,7 @@ Instance with_ends_of_plan(const Instance& instance, const Plan& plan,
 
 Remainder advance(const Instance& instance, const Plan& plan, Time time, Rests rests,
                   const std::vector<bool>& before) {
-  GROVE_ASSERT(time >= 0, "a plan must start at time 0");
+  GROVE_ASSERT(time >= 0, "a plan is never advanced to a time before 0");
   std::vector<AgentLater> agents;
   InstanceBuilder builder = InstanceBuilder::like(instance);
   std::vector<std::vector<std::string>> visitors(instance.tasks().size());

@@ -47,7 +47,7 @@ void add_action(const Instance& instance, const AgentPlan& planned, const Action
     }
   }
   GROVE_CHECK(action.kind == Action::Kind::kWork || std::ssize(path) == end + 1,
-              "an executed action takes its steps");
+              "after a move or turn the path ends when the action ends");
 }
 
 // Returns the robot for which the robots of a step wait. All robots of a ring wait for the same

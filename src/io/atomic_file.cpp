@@ -132,12 +132,12 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::write(std::string_view bytes) {
-  GROVE_CHECK(!is_committed_, "a file is complete when it is renamed");
+  GROVE_CHECK(!is_committed_, "no bytes are written to a file after commit()");
   if (!write_all(file_->get(), bytes)) fail_to_write(name_);
 }
 
 void AtomicFile::commit(Durability durability) {
-  GROVE_CHECK(!is_committed_, "a file is renamed once");
+  GROVE_CHECK(!is_committed_, "a file is committed once");
   is_committed_ = true;
   const bool is_flushed = durability == Durability::kMachine && !temporary_.empty();
   if (is_flushed && ::fsync(file_->get()) != 0) fail_to_write(name_);

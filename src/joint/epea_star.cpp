@@ -131,7 +131,7 @@ class EpeaStar::Search {
     GROVE_ASSERT(parent == kNone || (cost >= known_[parent].cost &&
                                      cost + individual_costs >=
                                          known_[parent].cost + known_[parent].individual_costs),
-                 "a move lowers neither the cost nor the sum of individual costs");
+                 "a move lowers neither the cost nor its sum with the individual costs to go");
     Index& slot = known_.slot(nodes, hash);
     if (slot != kNone && known_[slot].cost <= cost) return;
     const Cost layer = std::max(queue_.layer(), cost + individual_costs + groups_.excess(nodes));

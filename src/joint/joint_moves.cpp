@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Moves are chosen agent by agent, in ascending order of delta_f. The largest delta_f of the later
-// agents tells whether a prefix of moves can still lead to a successor above the expanded budget.
+// Moves are chosen agent by agent, in ascending order of delta_f. The sum of the largest delta_f of
+// the later agents decides whether a prefix of moves can still lead to a successor above the
+// expanded budget.
 #include "joint/joint_moves.h"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ Time JointMoves::generate(const Node* nodes, std::int32_t cost, Time expanded_bu
   }
   choose(0, 0, cost, 0);
   for (std::size_t i = 0; i < size; ++i) from_on_[place(i, from_)] = kNoAgent;
-  GROVE_ASSERT(next_budget_ > budget_, "the next budget of a joint state is greater");
+  GROVE_ASSERT(next_budget_ > budget_, "the next budget of a joint state exceeds the current one");
   return next_budget_;
 }
 
@@ -44,7 +45,7 @@ void JointMoves::choose(std::size_t agent, Time delta_f, std::int32_t cost,
                         std::int32_t individual_costs) {
   if (agent == agents_.size()) {
     GROVE_ASSERT(delta_f > expanded_budget_ && delta_f <= budget_,
-                 "a successor is generated in one expansion of its parent");
+                 "a successor is generated in only one expansion of its parent");
     successor_nodes_.insert(successor_nodes_.end(), to_.begin(), to_.end());
     successors_.push_back(
         {JointStates::hash_of(to_.data(), agents_.size()), cost, individual_costs});

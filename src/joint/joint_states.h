@@ -58,7 +58,7 @@ class JointStates {
     nodes_.insert(nodes_.end(), nodes, nodes + agents_);
   }
 
-  // Prefetches the slot for this hash; or the state that is in this slot.
+  // The first prefetches the slot for this hash, the second the state in this slot.
   void prefetch_slot(std::uint64_t hash) const { __builtin_prefetch(&slots_[first_slot(hash)]); }
   void prefetch_state(std::uint64_t hash) const {
     const Index there = slots_[first_slot(hash)];

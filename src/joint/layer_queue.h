@@ -11,8 +11,8 @@
 
 namespace grove::detail {
 
-// States by layer. Layers are emptied in ascending order; within a layer the last state in is the
-// first out. One thread at a time.
+// States by layer. Layers are emptied in ascending order. Within a layer, the state pushed last is
+// popped first. One thread at a time.
 class LayerQueue {
  public:
   using Index = std::uint32_t;
@@ -28,7 +28,7 @@ class LayerQueue {
   std::size_t bytes() const { return queued_ * sizeof(Index); }
 
   void push(Index state, Cost layer) {
-    GROVE_ASSERT(layer >= layer_, "no state enters a layer below the current one");
+    GROVE_ASSERT(layer >= layer_, "no state is pushed to a layer below the current one");
     const auto at = static_cast<std::size_t>(layer - first_);
     if (at >= layers_.size()) layers_.resize(at + 1);
     layers_[at].push_back(state);
@@ -36,7 +36,7 @@ class LayerQueue {
   }
 
   // Takes a state from the least layer. Drops states for which is_in(state, layer) is false,
-  // because they have moved to a different layer. Returns kNone if no state is left.
+  // because they are now in a different layer. Returns kNone if no state is left.
   template <class IsIn>
   Index pop(IsIn is_in) {
     for (; at_ < layers_.size(); ++at_, ++layer_) {
@@ -49,7 +49,7 @@ class LayerQueue {
       }
       std::vector<Index>().swap(layer);
     }
-    GROVE_ASSERT(queued_ == 0, "a queue without layers holds no states");
+    GROVE_ASSERT(queued_ == 0, "a queue whose layers are empty holds no states");
     layer_ = kInfiniteCost;
     return kNone;
   }

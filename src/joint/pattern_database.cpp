@@ -92,7 +92,8 @@ class Costs {
     layers_[static_cast<std::size_t>(cost)].push_back(static_cast<std::uint32_t>(entry));
   }
   void settle(std::size_t entry, Time cost) {
-    GROVE_ASSERT(costs_[entry] <= cost, "an entry is in the layers of its costs so far");
+    GROVE_ASSERT(costs_[entry] <= cost,
+                 "an entry is in the layers of its earlier and current costs");
     if (costs_[entry] != cost) return;
     for (std::size_t member = 0; member < members_.size(); ++member) {
       to_[member] = static_cast<Node>(entry / strides_[member]);
@@ -170,7 +171,8 @@ std::optional<PatternDatabase> PatternDatabase::make(const Instance& instance,
     Time alone = 0;
     for (std::size_t i = 0, rest = entry; i < graphs.size(); rest %= table.strides_[i++])
       alone += graphs[i]->to_go(static_cast<Node>(rest / table.strides_[i]));
-    GROVE_ASSERT(costs[entry] >= alone, "agents together cost at least the sum of what each costs");
+    GROVE_ASSERT(costs[entry] >= alone,
+                 "agents together cost at least the sum of their individual costs");
     table.excess_[entry] = costs[entry] == kNever
                                ? kUnreachable
                                : static_cast<std::uint8_t>(std::min(costs[entry] - alone, 254));

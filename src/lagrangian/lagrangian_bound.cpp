@@ -77,7 +77,7 @@ bool LagrangianBound::store_value(AgentIndex agent, ScaledCost value, Path path)
   GROVE_CHECK(phase_ == Phase::kPricing, "values are stored only while agents are priced");
   if (round_.has_value[agent]) return false;
   GROVE_ASSERT(path.empty() || multipliers().price(agent, path) >= value,
-               "a subproblem value is at most the penalised cost of a path");
+               "a subproblem value is at most the penalised cost of the path found");
   round_.has_value[agent] = 1;
   --round_.missing;
   GROVE_CHECK(round_.missing >= 0, "each agent has at most one value in a round");
@@ -128,7 +128,7 @@ void LagrangianBound::separate_conflict_rows() {
   for (const Collision& collision : occupancy_.collisions()) {
     rows_.add(collision);
     const auto [a, b] = std::minmax(collision.a, collision.b);
-    GROVE_ASSERT(a != b, "two agents collide");
+    GROVE_ASSERT(a != b, "a collision has two different agents");
     const FinishTimePair pair{a, b, static_cast<Time>(round_.paths[a].size()) - 1,
                               static_cast<Time>(round_.paths[b].size()) - 1};
     if (!rows_.has(pair)) events_.pairs.push_back(pair);

@@ -50,16 +50,16 @@ class LagrangianBound {
   bool has_value(AgentIndex agent) const { return round_.has_value[agent] != 0; }
   // Number of agents without a value in this round.
   int missing_values() const { return round_.missing; }
-  // Stores a value of this round, which no path of the agent may undercut under multipliers(), and
-  // the path found (empty: none cheaper than known_value()). Ignored, with the result false, if the
-  // agent already has a value.
+  // Stores the subproblem value of an agent in this round: a lower bound on the penalised costs of
+  // all its paths under multipliers(). `path`: the path found; empty if none was found below
+  // known_value(). Returns false, and stores nothing, if the agent already has a value.
   bool store_value(AgentIndex agent, ScaledCost value, Path path);
   void end_pricing();
 
-  // Performs a part of the update of rows and multipliers, of about lagrangian_step_work, and adds
-  // its effort to `work`. `cutoff`: plans of this cost or more are of no interest. Returns true
-  // when the update is complete. Throws std::bad_alloc, and std::overflow_error if a penalty
-  // exceeds its maximum; the caller must then call end().
+  // Performs a part of the update of rows and multipliers, with an effort of about
+  // lagrangian_step_work, and adds this effort to `work`. `cutoff`: plans of this cost or more need
+  // not be considered. Returns true when the update is complete. Throws std::bad_alloc, and
+  // std::overflow_error if a penalty exceeds its maximum; the caller must then call end().
   bool update(Cost cutoff, const Limits& limits, std::int64_t& work);
   // Begins the next round or ends the bound. `known`: a proven lower bound on every plan.
   void begin_round(Cost known);
@@ -78,9 +78,9 @@ class LagrangianBound {
  private:
   enum class Phase : std::uint8_t { kPricing, kUpdating, kEnded };
   struct Round {
-    std::vector<Path> paths;              // by agent: the best path found; empty: none
+    std::vector<Path> paths;              // by agent: the path found last; empty if none
     std::vector<ScaledCost> values;       // by agent
-    std::vector<std::uint8_t> has_value;  // by agent: in this round
+    std::vector<std::uint8_t> has_value;  // by agent: 1 if it has a value in this round
     int missing = 0;
   };
   // Events of the round that can become rows.
@@ -91,7 +91,7 @@ class LagrangianBound {
   struct Best {
     ScaledCost bound = 0;
     bool records_multipliers = false;
-    std::vector<RowMultiplier> multipliers;  // they prove `bound`
+    std::vector<RowMultiplier> multipliers;  // those that prove `bound`
   };
   struct Solutions {
     std::shared_ptr<const DualSolution> latest;

@@ -70,7 +70,7 @@ class PenalizedSearch {
     std::uint32_t stamp;
   };
 
-  // The marks of this call are those with the current stamp.
+  // Only the marks with the current stamp belong to the current call.
   struct Marks {
     std::vector<std::vector<Mark>> of;  // by stage, then state
     std::uint32_t stamp = 0;

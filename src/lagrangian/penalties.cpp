@@ -49,7 +49,7 @@ void Penalties::add(Time arrival, Arc arc, Amount amount) {
   Amount& there = pages_[page * kOnPage + static_cast<std::size_t>(arc) % kOnPage];
   if (there + amount > kMaxPenalty) throw std::overflow_error("a penalty exceeds its maximum");
   there += amount;
-  GROVE_ASSERT(there >= 0, "a penalty must not be negative");
+  GROVE_ASSERT(there >= 0, "a penalty is not negative");
 }
 
 }  // namespace grove::detail

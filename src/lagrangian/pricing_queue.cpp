@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Jobs of one round. An update job is given out only while no other job is in progress, and
-// values are stored only in the round of their job, so all values of a round are computed under the
-// same multipliers; lagrangian_bound.cpp needs this.
+// *Claim: all values of a round are computed under the same multipliers*, as lagrangian_bound.cpp
+// requires. *Proof.* An update job is given out only while no other job is in progress, and values
+// are stored only in the round of their job.
 #include "lagrangian/pricing_queue.h"
 
 #include <algorithm>
@@ -116,15 +116,15 @@ void PricingQueue::commit(Job job) {
 
 void PricingQueue::end_pricing_if_done() {
   if (!bound_->is_pricing() || bound_->missing_values() > 0 || in_progress_ > 0) return;
-  GROVE_CHECK(next_agent_ == end_agent_, "every agent has had a job or was reserved");
+  GROVE_CHECK(next_agent_ == end_agent_, "each agent has had a job or is reserved");
   bound_->end_pricing();
   work_between_ = 0;
 }
 
 // Balances the expected work between other processes and this one. The share of this process
 // includes the work between two rounds, which others cannot do. A share below
-// lagrangian_min_remote_work does not justify a message; only the last one can be smaller, if
-// agents run out.
+// lagrangian_min_remote_work does not justify a message. Only the last share can be smaller, if no
+// agents are left.
 std::vector<PricingQueue::Range> PricingQueue::reserve(std::int64_t processes) {
   const std::lock_guard lock(mutex_);
   std::vector<Range> ranges;
@@ -180,7 +180,7 @@ int PricingQueue::accept(PricingReply reply) {
   const auto agents = static_cast<AgentIndex>(reply.values.size());
   if (agents == 0 || reply.paths.size() != reply.values.size() || reply.first < requested_ ||
       reply.first > bound_->agent_count() - agents)
-    throw std::invalid_argument("pricing result: was not requested");
+    throw std::invalid_argument("pricing result: contains agents that were not requested");
   int stored = 0;
   for (AgentIndex i = 0; i < agents; ++i) {
     labels_[reply.first + i] = reply.work * effort::kPricedLabels / agents;

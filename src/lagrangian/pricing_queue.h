@@ -37,15 +37,15 @@ class PricingQueue {
   // job is available now or the bound has ended.
   std::optional<Job> next();
   bool has_jobs() const;
-  // Performs a job. `cutoff`: plans of this cost or more are of no interest. `known`: a proven
+  // Performs a job. `cutoff`: plans of this cost or more need not be considered. `known`: a proven
   // lower bound on every plan. If memory runs out or a penalty would exceed its maximum, the bound
   // ends when the job is committed, and lower_bound() keeps its value.
   void perform(Job& job, Pricer& pricer, Cost cutoff, Cost known, const Limits& limits);
   void commit(Job job);
 
   // Reserves agents for at most `processes` other processes, each range with an expected effort of
-  // at least lagrangian_min_remote_work. Returns none if there is too little work left in this
-  // round. The caller must then call request_for() for each range, and requested() afterwards.
+  // at least lagrangian_min_remote_work. Returns no range if too little work is left in this round.
+  // The caller must then call request_for() for each range, and requested() afterwards.
   std::vector<Range> reserve(std::int64_t processes);
   // Returns the request for a reserved range, without `update`.
   PricingRequest request_for(const Range& range);

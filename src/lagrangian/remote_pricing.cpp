@@ -30,7 +30,8 @@ std::vector<PricingDispatcher::Dispatch> PricingDispatcher::dispatch(PricingQueu
   for (const PricingQueue::Range& range : ranges) {
     helper =
         std::find_if(helper, helpers_.end(), [](const Helper& h) { return !h.is_awaiting_reply; });
-    GROVE_CHECK(helper != helpers_.end(), "at most one range per helper without a request");
+    GROVE_CHECK(helper != helpers_.end(),
+                "at most one range is reserved per helper without a request");
     PricingRequest request = queue.request_for(range);
     request.update = queue.multipliers().update_for(helper->multipliers);
     helper->is_awaiting_reply = true;

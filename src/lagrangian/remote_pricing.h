@@ -15,7 +15,7 @@
 
 namespace grove::detail {
 
-// The owner's side. Knows for each helper whether a reply is outstanding and which multipliers it
+// The owner's side. Stores for each helper whether a reply is outstanding and which multipliers it
 // has. Helpers are numbered from 0. One thread at a time.
 class PricingDispatcher {
  public:
@@ -26,8 +26,8 @@ class PricingDispatcher {
     std::int64_t work;  // expected effort, in the unit of model/effort.h
     PricingRequest request;
   };
-  // Returns requests for helpers without an outstanding reply. Returns none if there is too little
-  // work left in this round. The caller must send them.
+  // Returns requests for helpers without an outstanding reply, which the caller must send. Returns
+  // none if too little work is left in this round.
   std::vector<Dispatch> dispatch(PricingQueue& queue);
   // Processes a helper's reply. Returns the number of values used; see PricingQueue::accept(),
   // whose exceptions it passes on.
@@ -36,7 +36,7 @@ class PricingDispatcher {
  private:
   struct Helper {
     std::vector<Multipliers::Amount> multipliers;  // by row: the multiplier that was sent last
-    bool is_awaiting_reply = false;                // its reply is outstanding
+    bool is_awaiting_reply = false;                // to the request that was sent last
   };
   std::vector<Helper> helpers_;
 };

@@ -52,7 +52,7 @@ class CollisionCheck {
       std::swap(before_, now_);
     }
     GROVE_ASSERT(std::ranges::count(now_, kNoAgent) == std::ssize(now_),
-                 "agents enter a table that is empty");
+                 "the table is empty before agents enter it");
   }
 
  private:

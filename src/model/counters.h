@@ -27,9 +27,9 @@ inline constexpr std::size_t kCounterCount = 0
 
 // When a counter is reported.
 enum class CounterShown : std::uint8_t {
-  kAlways,      // by every run with a search, even if it is 0
-  kIfCounted,   // by runs with the part of the program that counts it
-  kIfPositive,  // by runs in which it is not 0
+  kAlways,      // by each run with a search, even if it is 0
+  kIfCounted,   // by each run with a part that counts it, even if it is 0
+  kIfPositive,  // by each run in which it is not 0
 };
 
 struct CounterInfo {
@@ -42,13 +42,14 @@ struct CounterInfo {
 // By Counter.
 extern const std::array<CounterInfo, kCounterCount> kCounters;
 
-// The counter `prefix` + `name`, in which each '-' is replaced by '_'; nullopt: there is none.
+// Returns the counter `prefix` + `name`, in which each '-' is replaced by '_'; nullopt if there is
+// none.
 std::optional<Counter> counter_named(std::string_view prefix, std::string_view name);
 
-// A value of each counter. A value type.
+// The values of all counters. A value type.
 class Counters {
  public:
-  // Access to change the value; the counter then counts as counted.
+  // The value, to change it. The counter is then among the counted ones.
   std::int64_t& operator[](Counter counter) {
     counted_.set(index(counter));
     return values_[index(counter)];
@@ -56,10 +57,10 @@ class Counters {
   std::int64_t operator[](Counter counter) const { return values_[index(counter)]; }
 
   Counters& operator+=(const Counters& more);
-  // Subtracts the values. The same counters remain counted.
+  // Subtracts the values. Which counters are counted does not change.
   Counters& operator-=(const Counters& less);
 
-  // By name: the counters that were counted and, if they are kIfPositive, are not 0.
+  // By name: the values of the counted counters, without those that are kIfPositive and 0.
   std::map<std::string, std::int64_t> named() const;
 
  private:
@@ -71,7 +72,7 @@ class Counters {
 
 // Adds `more` to `counts`, name by name.
 void add(const Counters& more, std::map<std::string, std::int64_t>& counts);
-// Adds the counters that are reported always, with the value 0, if they are absent.
+// Adds each absent counter that is always reported (kAlways), with the value 0.
 void add_missing(std::map<std::string, std::int64_t>& counts);
 
 }  // namespace grove::detail

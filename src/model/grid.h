@@ -41,7 +41,7 @@ class Grid : public World {
   bool contains(Position p) const { return p.x >= 0 && p.x < width_ && p.y >= 0 && p.y < height_; }
   bool passable(Cell cell) const { return passable_[cell] != 0; }
   Cell cell(Position p) const {
-    GROVE_ASSERT(contains(p), "a position must be on the grid");
+    GROVE_ASSERT(contains(p), "a position is on the grid");
     return p.y * width_ + p.x;
   }
   Position position(Cell cell) const { return {cell % width_, cell / width_}; }

@@ -99,7 +99,8 @@ AgentPlan with_work_before_turns(const Instance& instance, AgentPlan plan) {
     const auto at = [&](Time t) { return plan.path.begin() + t; };
     std::rotate(at(turn) + 1, at(work.begin) + 1, at(work.end) + 1);
     std::fill_n(at(turn) + 1, work.end - work.begin, plan.path[turn]);
-    GROVE_ASSERT(turn >= 0 && turn <= work.begin, "a task execution is only moved back");
+    GROVE_ASSERT(turn >= 0 && turn <= work.begin,
+                 "a task execution is never moved to a later time");
     work.end -= work.begin - turn;
     work.begin = turn;
   }

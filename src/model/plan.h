@@ -24,7 +24,7 @@ using Path = std::vector<State>;
 // The state at `time` of an agent with this path. Preconditions: the path is not empty, and time >=
 // 0.
 inline State state_at(const Path& path, Time time) {
-  GROVE_ASSERT(!path.empty() && time >= 0, "a path must not be empty");
+  GROVE_ASSERT(!path.empty() && time >= 0, "a path is not empty");
   return time < static_cast<Time>(path.size()) ? path[time] : path.back();
 }
 // The place at `time` of an agent with this path. The preconditions are those of state_at().

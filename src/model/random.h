@@ -34,7 +34,7 @@ class Random {
   // A uniform draw from 0, ..., bound - 1. Precondition: bound > 0.
   template <std::integral Int>
   Int below(Int bound) {
-    GROVE_ASSERT(bound > 0, "a draw is from a range that is not empty");
+    GROVE_ASSERT(bound > 0, "the range of a draw is not empty");
     const auto n = static_cast<std::uint64_t>(bound);
     std::uint64_t draw = engine_();
     // Rejects draws below 2^64 mod n, so that the result is uniform.
@@ -82,7 +82,7 @@ class SplitMix64 {
   // A draw from 0, ..., n - 1. Precondition: n > 0. The distribution is uniform up to a relative
   // error of n / 2^32, so n should be small.
   std::uint32_t below(std::uint32_t n) {
-    GROVE_ASSERT(n > 0, "a draw is from a range that is not empty");
+    GROVE_ASSERT(n > 0, "the range of a draw is not empty");
     return static_cast<std::uint32_t>(std::uint64_t{next()} * n >> 32);
   }
 

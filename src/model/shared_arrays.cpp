@@ -83,7 +83,7 @@ SharedArrays::SharedArrays(std::span<std::byte> memory, const ArrayLayout& layou
       flag += sizeof(SharedArray::Flag);
     }
   GROVE_CHECK(begin == bytes(layout), "the arrays take exactly the memory of their layout");
-  GROVE_CHECK(flag <= zero_bytes(layout), "the flags are in memory that was zero at first");
+  GROVE_CHECK(flag <= zero_bytes(layout), "the flags are in memory that is initially zero");
 }
 
 SharedArray SharedArrays::array(ArrayKind kind, std::size_t number) const {

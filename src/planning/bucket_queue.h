@@ -94,9 +94,8 @@ inline void BasicBucketQueue<Progress>::reset(Time first) {
 
 template <class Progress>
 inline void BasicBucketQueue<Progress>::push(Time layer, const Entry& entry) {
-  GROVE_ASSERT(layer >= layer_, "layers must not decrease");
-  GROVE_ASSERT(entry.conflicts <= kMaxConflicts,
-               "the number of conflicts must not exceed its maximum");
+  GROVE_ASSERT(layer >= layer_, "layers never decrease");
+  GROVE_ASSERT(entry.conflicts <= kMaxConflicts, "the number of conflicts is at most its maximum");
   pool_.push_back({entry, layer, kNone});
   place(static_cast<std::int32_t>(pool_.size() - 1));
 }

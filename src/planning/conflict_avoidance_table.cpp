@@ -84,7 +84,7 @@ void ConflictAvoidanceTable::add(const Path& path) {
     const Place place = world_.place(path[t]);
     mark(place, t);
     Counts& counts = insert(key(place, t));
-    GROVE_ASSERT(counts.visits < UINT16_MAX, "few enough paths are in the table");
+    GROVE_ASSERT(counts.visits < UINT16_MAX, "the number of visits fits into 16 bits");
     ++counts.visits;
     if (t > 0 && before != place) ++counts.moves[direction(world_, before, place)];
     before = place;
@@ -103,11 +103,11 @@ void ConflictAvoidanceTable::remove(const Path& path) {
     const Place place = world_.place(path[t]);
     Counts& counts = counts_[slot(key(place, t))];
     GROVE_ASSERT(counts.key == key(place, t) && counts.visits > 0,
-                 "a path must be in the table before it is removed");
+                 "only a path in the table is removed");
     --counts.visits;
     if (t > 0 && before != place) {
       GROVE_ASSERT(counts.moves[direction(world_, before, place)] > 0,
-                   "a move must be in the table before it is removed");
+                   "only a move in the table is removed");
       --counts.moves[direction(world_, before, place)];
     }
     before = place;
@@ -115,14 +115,14 @@ void ConflictAvoidanceTable::remove(const Path& path) {
   const Place end = world_.place(path.back());
   const auto gone = std::ranges::find_if(
       rests_, [&](const Rest& rest) { return rest.place == end && rest.since == since; });
-  GROVE_ASSERT(gone != rests_.end(), "a path must be in the table before it is removed");
+  GROVE_ASSERT(gone != rests_.end(), "only a path in the table is removed");
   *gone = rests_.back();
   rests_.pop_back();
   first_rest_[end] = kNever;
   for (const Rest& rest : rests_)
     if (rest.place == end) first_rest_[end] = std::min(first_rest_[end], rest.since);
   GROVE_ASSERT(!rests_.empty() || first_rest_[end] == kNever,
-               "no place is rested on in an empty table");
+               "in an empty table no path rests on a place");
 }
 
 void ConflictAvoidanceTable::clear() {
@@ -155,7 +155,7 @@ int ConflictAvoidanceTable::conflicts_of_resting(Place place, Time time) const {
 }
 
 int ConflictAvoidanceTable::conflicts_of(const Path& path) const {
-  GROVE_ASSERT(!path.empty(), "a path must not be empty");
+  GROVE_ASSERT(!path.empty(), "a path is not empty");
   int count = 0;
   for (std::size_t t = 1; t < path.size(); ++t)
     count += conflicts(world_.place(path[t - 1]), world_.place(path[t]), static_cast<Time>(t));

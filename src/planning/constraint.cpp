@@ -79,7 +79,7 @@ std::optional<ConstraintKind> constraint_kind(std::uint8_t number) {
 
 bool satisfies(const World& world, const Path& path, const Constraint& c,
                const Corridors& corridors) {
-  GROVE_ASSERT(!path.empty(), "a path must not be empty");
+  GROVE_ASSERT(!path.empty(), "a path is not empty");
   switch (c.kind) {
     case ConstraintKind::kVertexOrEdge:
       return avoids(world, path, c);

@@ -17,7 +17,7 @@
 namespace grove::detail {
 
 void FewestConflicts::find(const Mdd& paths, const ConflictAvoidanceTable& others, Path& path) {
-  GROVE_ASSERT(!paths.empty(), "there must be a path to choose from");
+  GROVE_ASSERT(!paths.empty(), "there is a path to choose from");
   nodes_ += paths.node_count();
   const Time cost = paths.cost();
   best_.resize(static_cast<std::size_t>(paths.node_count()));

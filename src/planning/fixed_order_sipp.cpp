@@ -33,7 +33,7 @@ PathOutcome FixedOrderSipp::find(const GoalSequence& goals, const PathQuery& que
     case Workspace::End::kFound:
       GROVE_ASSERT(search.cost() >= goals.distance(goals.start(), 0) &&
                        search.cost() >= search.goals().first_rest(),
-                   "no path costs less than its distance or ends before it may");
+                   "no path costs less than its distance or ends before the agent may rest");
       if (search.cost() > query.cutoff) return PathOutcome::kAboveCutoff;
       search.write_path(path);
       return PathOutcome::kFound;

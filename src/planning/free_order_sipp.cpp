@@ -214,7 +214,7 @@ std::optional<PathOutcome> FreeOrderSipp::Workspace::find_within(Time cap) {
     switch (search_.run(std::min({abort_at_, check_feasibility_at_, recompute_costs_at_}))) {
       case Search::End::kFound:
         GROVE_ASSERT(search_.cost() <= cap && search_.cost() >= search_.goals().first_rest(),
-                     "a path costs at most the cap, and ends no earlier than it may");
+                     "a path costs at most the cap and ends no earlier than the agent may rest");
         GROVE_ASSERT(goals().distance(first, goals().stops().start()) <= search_.cost(),
                      "the costs to go do not exceed the cost of a path");
         search_.write_path(*path_);

@@ -48,7 +48,7 @@ class GoalSequence {
 
  private:
   int checked(int k) const {
-    GROVE_ASSERT(k >= 0 && k < size(), "the index must be that of a goal of the sequence");
+    GROVE_ASSERT(k >= 0 && k < size(), "the index is that of a goal of the sequence");
     return k;
   }
 

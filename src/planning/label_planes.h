@@ -62,7 +62,7 @@ class LabelPlanes {
   // open() must have returned true for the state in this search.
   Label& label(std::int32_t slot, std::int32_t state) {
     const Use& use = by_state_[state];
-    GROVE_ASSERT(use.stamp == stamp_, "the state must be open");
+    GROVE_ASSERT(use.stamp == stamp_, "the state is open");
     GROVE_ASSERT(slot >= 0 && static_cast<std::size_t>(slot) < capacity_,
                  "a slot is within its plane");
     Label& found = use.labels[slot];

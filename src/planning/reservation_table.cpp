@@ -30,10 +30,9 @@ void ReservationTable::add(AgentIndex agent, const Path& path) {
   for_each_stay(world_, agent, path, [this](Place place, const Stay& stay) {
     std::vector<Stay>& stays = stays_[place];
     const auto after = std::ranges::upper_bound(stays, stay.first, {}, &Stay::first);
-    GROVE_ASSERT(after == stays.end() || stay.last < after->first,
-                 "reserved paths must not collide");
+    GROVE_ASSERT(after == stays.end() || stay.last < after->first, "reserved paths do not collide");
     GROVE_ASSERT(after == stays.begin() || std::prev(after)->last < stay.first,
-                 "reserved paths must not collide");
+                 "reserved paths do not collide");
     stays.insert(after, stay);
     ++count_;
   });
@@ -44,7 +43,7 @@ void ReservationTable::remove(AgentIndex agent, const Path& path) {
     std::vector<Stay>& stays = stays_[place];
     const auto at = std::ranges::lower_bound(stays, stay.first, {}, &Stay::first);
     GROVE_ASSERT(at != stays.end() && at->first == stay.first && at->agent == agent,
-                 "a path must be reserved before it is removed");
+                 "only a reserved path is removed");
     stays.erase(at);
     --count_;
   });

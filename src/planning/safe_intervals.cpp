@@ -56,7 +56,7 @@ void SafeIntervals::add_reserved_place(Place place) {
   });
   GROVE_ASSERT((slot_count() - g.first_slot) % world_.states_on(place) == 0,
                "the states on a place have equally many slots");
-  GROVE_ASSERT(slot_count() <= slot_limit_, "reserved places have few enough slots");
+  GROVE_ASSERT(slot_count() <= slot_limit_, "the number of slots is within its limit");
   g.slots = (slot_count() - g.first_slot) / world_.states_on(place);
   group_of_[place] = static_cast<std::int32_t>(groups_.size());
   groups_.push_back(g);

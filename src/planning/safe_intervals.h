@@ -223,7 +223,7 @@ class SafeIntervals {
     const Group& group = groups_[group_of_[world_.place(state)]];
     const int there = slot + slots(group, next).first - slots(group, state).first;
     GROVE_ASSERT(state_of(there) == next && end_of(there) == end_of(slot),
-                 "the slots of the states on a place are in the same order");
+                 "the states on a place have their slots in the same order");
     if (from_time < end_of(slot)) arrive(there, next, from_time + 1);
   }
 

@@ -186,7 +186,7 @@ class SequenceStages {
   // The stage after the agent counts `stop`, which must be in Stage::next. Returns kOutside if the
   // costs to go do not cover that stage.
   StageId after(StageId id, int stop) {
-    GROVE_ASSERT(stages_[id].next >> stop & 1, "a counted stop must be a possible next stop");
+    GROVE_ASSERT(stages_[id].next >> stop & 1, "a counted stop is a possible next stop");
     const StageId known = after_[static_cast<std::size_t>(id) * stride_ + stop];
     return known == kUnknown ? make_after(id, stop) : known;
   }

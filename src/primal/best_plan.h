@@ -11,11 +11,11 @@
 
 namespace grove::detail {
 
-// The best plan is found by the primal search or adopted from the caller. A plan that was found is
-// stored here until the caller gets it. One thread at a time.
+// The primal search finds the best plan or adopts it from the caller. Stores a plan that was found
+// until the caller gets it. One thread at a time.
 class BestPlan {
  public:
-  // kInfiniteCost if there is no plan yet.
+  // Cost of the best plan; kInfiniteCost if there is none yet.
   Cost cost() const { return cost_; }
   bool exists() const { return cost_ < kInfiniteCost; }
   // Source of the plan that was found last.
@@ -28,7 +28,7 @@ class BestPlan {
 
   // True if the best plan was found and the caller does not have it yet.
   bool is_unreported() const { return cost_ < reported_cost_; }
-  // Effort since report(). `work`: the effort so far.
+  // Effort since the last call of report(). `work`: the effort so far.
   std::int64_t work_since_report(std::int64_t work) const { return work - work_at_report_; }
   // Returns the paths of the best plan, by AgentIndex, and records that the caller gets the plan.
   const std::vector<Path>& report(std::int64_t work);

@@ -33,7 +33,7 @@ Configurations::Id Configurations::insert(std::span<const AgentState> places) {
   std::ranges::copy(places, places_.add().begin());
   hashes_.push_back(hash);
   GROVE_ASSERT(std::ssize(hashes_) == count() && 2 * hashes_.size() <= slots_.size(),
-               "a hash set must have one hash per row and be at most half full");
+               "a hash set has one hash per row and is at most half full");
   return slots_[slot] = count() - 1;
 }
 

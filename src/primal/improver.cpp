@@ -53,7 +53,7 @@ Improver::Guidance Improver::guidance() const {
 }
 
 bool Improver::step(const Limits& limits) {
-  GROVE_CHECK(is_active(), "without a plan and LaCAM the planner must get all effort");
+  GROVE_CHECK(is_active(), "an improver that waits gets no effort");
   if (state() == State::kLacam) return seek_first_plan(limits);
   if (state() == State::kGuided) return guide(limits);
   return improve(limits);
@@ -73,7 +73,7 @@ bool Improver::seek_first_plan(const Limits& limits) {
     start_from(*lacam->plan(), PlanSource::kLacam);  // deletes `lacam`
     return true;
   }
-  // If memory is short, it is left to the rest of the run.
+  // Ends LaCAM if memory is short, so that the rest of the run can use it.
   if (outcome == Outcome::kExhausted || (outcome == Outcome::kStopped && !limits.stop_requested()))
     states_.enter(Waiting());
   return false;
@@ -83,7 +83,7 @@ bool Improver::guide(const Limits& limits) {
   using Outcome = TrafficGuidedLacam::Outcome;
   auto& [lacam, rounds_without_gain] = states_.as<Guided>();
   const Outcome outcome = lacam->run(limits, tuning_.primal_step_work);
-  GROVE_CHECK(lacam->work() >= joint_search_.guided_work, "effort must not fall");
+  GROVE_CHECK(lacam->work() >= joint_search_.guided_work, "effort never falls");
   joint_search_.guided_work = lacam->work();
   joint_search_.guided_steps = lacam->joint_steps();
   if (outcome == Outcome::kWorking || limits.stop_requested()) return false;
@@ -98,7 +98,7 @@ bool Improver::guide(const Limits& limits) {
     }
     lacam->learn(plan);
   }
-  // If memory is short, it is left to the rest of the run.
+  // Ends LaCAM if memory is short, so that the rest of the run can use it.
   if (outcome == Outcome::kStopped || rounds_without_gain >= kGuidedRoundsWithoutGain)
     states_.enter(Lns{Guidance::kDone});
   return gain;
@@ -125,7 +125,7 @@ void Improver::put(const Plan& plan, PlanSource source) {
   paths_.clear();
   for (AgentIndex agent = 0; agent < agents(); ++agent)
     paths_.put(agent, walked_path(problem_.instance, agent, plan.agents[agent]));
-  GROVE_CHECK(paths_.cost() == plan.cost, "the paths of a plan must add up to its cost");
+  GROVE_CHECK(paths_.cost() == plan.cost, "the costs of a plan's paths add up to its cost");
   begin_plan(source);
 }
 
@@ -133,7 +133,7 @@ void Improver::take_over(PlannedPaths& planned) {
   paths_.clear();
   for (AgentIndex agent = 0; agent < agents(); ++agent) paths_.put(agent, planned.take(agent));
   GROVE_CHECK(planned.cost() == 0 && planned.reservations().count() == 0,
-              "all paths must be taken over");
+              "all paths are taken over");
   begin_plan(PlanSource::kPrioritizedPlanning);
   states_.enter(Lns{guidance()});
 }

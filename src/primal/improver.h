@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Improver of the primal search: runs beside the planner. Seeks a first plan by LaCAM and improves
-// the current plan by traffic-guided LaCAM and large neighbourhood search (LNS).
+// Improver of the primal search, which shares the effort with the planner. Seeks a first plan by
+// LaCAM and improves the current plan by traffic-guided LaCAM and large neighbourhood search (LNS).
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ namespace grove::detail {
 class Improver {
  public:
   enum class State : std::uint8_t { kWaiting, kLacam, kGuided, kLns };
-  // Effort of LaCAM, with and without guidance.
+  // Steps and effort of LaCAM, with and without guidance.
   struct JointSearch {
     std::int64_t first_plan_steps = 0;  // joint steps of LaCAM for a first plan
     std::int64_t guided_steps = 0;      // joint steps of traffic-guided LaCAM
@@ -40,7 +40,7 @@ class Improver {
            Random& random, std::uint64_t seed, bool has_lacam, const Tuning& tuning);
 
   State state() const { return states_.name(); }
-  // True if step() can do something.
+  // True if step() may be called.
   bool is_active() const { return state() != State::kWaiting; }
   bool has_plan() const { return state() == State::kGuided || state() == State::kLns; }
   // False if LaCAM is not possible or has failed.
@@ -51,10 +51,10 @@ class Improver {
   // Source of the cheapest plan since the last call of start_from() or take_over().
   PlanSource source() const { return source_; }
 
-  // Continues for a slice of LaCAM, or one LNS iteration; requires is_active(). Returns true if the
-  // current plan is new or cheaper than all plans that LNS has made from the same plan before.
+  // Runs a slice of LaCAM or one LNS iteration. Requires is_active(). Returns true if the current
+  // plan is new, or if LNS has made it cheaper than all plans since the last new one.
   bool step(const Limits& limits);
-  // Makes a valid plan the current one.
+  // Makes `plan`, which must be valid, the current plan.
   void start_from(const Plan& plan, PlanSource source);
   // Makes the paths of prioritised planning the current plan, and removes them from `planned`.
   void take_over(PlannedPaths& planned);
@@ -67,8 +67,8 @@ class Improver {
   std::int64_t lns_iterations() const { return lns_.steps(); }
 
  private:
-  // Use of traffic-guided LaCAM, at most once per search. kImpossible: LaCAM is not possible or has
-  // failed.
+  // Whether the search can still use traffic-guided LaCAM, which it does at most once. kImpossible:
+  // LaCAM is not possible or has failed.
   enum class Guidance : std::uint8_t { kImpossible, kPossible, kDone };
 
   struct Waiting {};
@@ -114,7 +114,7 @@ class Improver {
   States states_;
   PlannedPaths paths_;
   PlanSource source_ = PlanSource::kPrioritizedPlanning;
-  Cost least_cost_ = kInfiniteCost;  // of the plans made from the same plan
+  Cost least_cost_ = kInfiniteCost;  // of the plans since begin_plan()
   LargeNeighborhoodSearch lns_;
   JointSearch joint_search_;
 };

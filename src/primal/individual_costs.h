@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Result of individual planning: the costs of the agents' paths without the other agents.
+// Result of individual planning: costs of the agents' best paths without the other agents.
 #pragma once
 
 #include <cstdint>

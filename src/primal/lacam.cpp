@@ -162,7 +162,7 @@ void Lacam::rank_agents(Id id) {
 
 void Lacam::branch(Id id, ConstraintId constraint) {
   const std::int32_t depth = constraints_[constraint].depth;
-  GROVE_ASSERT(ranking_.of == id, "constraints must follow the ranking of their configuration");
+  GROVE_ASSERT(ranking_.of == id, "constraints follow the ranking of their configuration");
   if (depth == static_cast<std::int32_t>(agents())) return;
   const AgentIndex agent = ranking_.agents[depth];
   const AgentState from = configurations_[id][agent];
@@ -181,7 +181,7 @@ void Lacam::collect_constraints(ConstraintId constraint) {
     orders_.push_back(
         {ranking_.agents[constraints_[constraint].depth - 1], constraints_[constraint].state});
   GROVE_ASSERT(orders_.empty() || orders_.back().agent == ranking_.agents.front(),
-               "the constraints of a node must begin with the agent of highest priority");
+               "the constraints of a node begin with the agent of highest priority");
 }
 
 void Lacam::arrive(Id from, std::span<const State> states) {
@@ -209,7 +209,7 @@ void Lacam::add_node(Id id, Id parent) {
   for (std::size_t i = 0; i < agents(); ++i) ages[i] = age_of(i, parent, places_[i]);
   GROVE_ASSERT(id + 1 == configurations_.count() && std::ssize(nodes_) == configurations_.count() &&
                    ages_.count() == configurations_.count(),
-               "each configuration must have one node and one row of ages");
+               "each configuration has one node and one row of ages");
   add_constraint(id, kNone, kNoState, 0);
   stack_.push_back(id);
   if (is_end(id)) plan_ = make_plan(id);
@@ -228,7 +228,7 @@ Plan Lacam::make_plan(Id end) {
   std::vector<Id> way;
   for (Id id = end; id >= 0; id = nodes_[id].parent) way.push_back(id);
   std::ranges::reverse(way);
-  GROVE_CHECK(way.front() == 0, "a plan must begin at the start configuration");
+  GROVE_CHECK(way.front() == 0, "a plan begins at the start configuration");
   Plan plan;
   for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
     Path path;

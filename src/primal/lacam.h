@@ -56,7 +56,7 @@ class Lacam {
     ConstraintId last;
   };
 
-  // The agents by priority in a configuration.
+  // The agents of a configuration, by descending priority.
   struct Ranking {
     Id of = -1;
     std::vector<AgentIndex> agents;

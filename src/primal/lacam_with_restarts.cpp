@@ -29,7 +29,7 @@ class LacamWithRestarts::Search {
       std::int64_t unused = allowed;
       const Outcome outcome = lacam_->run(limits, unused);
       const std::int64_t made = allowed - unused;
-      GROVE_CHECK(0 <= made && made <= allowed, "a search must keep to its slice");
+      GROVE_CHECK(0 <= made && made <= allowed, "a search makes at most the steps of its slice");
       slice -= made;
       left_ -= made;
       steps_made_ += made;

@@ -83,10 +83,10 @@ void LargeNeighborhoodSearch::step(const Limits& limits) {
   const Cost others = paths_.cost();
   const Cost cutoff = old_cost + worse_allowed(others + old_cost);
   if (replan(agents, cutoff, repair, limits)) {
-    GROVE_CHECK(paths_.cost() <= others + cutoff, "new paths must not cost more than the cutoff");
+    GROVE_CHECK(paths_.cost() <= others + cutoff, "new paths cost at most the cutoff");
   } else {
     restore(agents);
-    GROVE_CHECK(paths_.cost() == others + old_cost, "restored paths must have their old cost");
+    GROVE_CHECK(paths_.cost() == others + old_cost, "restored paths have their old cost");
   }
   const Cost gain = std::max<Cost>(0, others + old_cost - paths_.cost());
   neighborhoods_.reward(gain);

@@ -48,7 +48,7 @@ const std::vector<AgentIndex>& Neighborhoods::choose() {
   if (kind_ == kReducedCost) add_by_reduced_cost();
   if (std::ssize(chosen_) < kFew) add_anyone();
   GROVE_CHECK(!chosen_.empty() && std::ssize(chosen_) <= wanted_,
-              "a neighbourhood must have 1 to `wanted_` agents");
+              "a neighbourhood has from 1 to `wanted_` agents");
   random_.shuffle(chosen_);
   return chosen_;
 }
@@ -93,7 +93,7 @@ void Neighborhoods::add_delayed() {
   add(agent);
   add_blocking_agents(agent, low_level_.individual_path(agent), 0);
   const Time delay = paths_.cost(agent) - low_level_.individual_cost(agent);
-  GROVE_ASSERT(delay > 0, "only a delayed agent may be drawn");
+  GROVE_ASSERT(delay > 0, "only a delayed agent is drawn");
   for (int tries = 0; tries < kAgentBasedTries && !full(); ++tries) {
     const AgentIndex member = chosen_[random_.below(chosen_.size())];
     add_blocking_agents(member, low_level_.individual_path(member), random_.below(delay + 1));

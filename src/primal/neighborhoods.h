@@ -40,7 +40,7 @@ class Neighborhoods {
   struct ReducedCosts {
     int prices = 0;                      // PrimalLowLevel::price_changes() of the dual solution
     std::vector<ScaledCost> of;          // by agent
-    std::vector<std::int64_t> versions;  // by agent: version of the path
+    std::vector<std::int64_t> versions;  // by agent: version of the path priced
   };
   // Breadth-first search over places.
   struct PlaceSearch {

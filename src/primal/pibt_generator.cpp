@@ -37,24 +37,24 @@ std::span<const State> PibtGenerator::step(std::span<const AgentState> from,
   std::ranges::fill(to_, kNoState);
   for (std::size_t agent = 0; agent < from.size(); ++agent) {
     AgentIndex& there = now_[world_.place(from[agent].state)];
-    GROVE_ASSERT(there == kNoAgent, "a place must hold at most one agent");
+    GROVE_ASSERT(there == kNoAgent, "a place holds at most one agent");
     there = static_cast<AgentIndex>(agent);
   }
   const bool done = apply(constraints) && std::ranges::all_of(priority, [&](AgentIndex agent) {
                       return to_[agent] != kNoState || push(agent);
                     });
-  GROVE_ASSERT(candidates_.empty(), "no agent may be choosing after a joint step");
+  GROVE_ASSERT(candidates_.empty(), "no agent is choosing after a joint step");
   if (done)
     for (std::size_t agent = 0; agent < from.size(); ++agent)
       GROVE_ASSERT(is_possible(static_cast<AgentIndex>(agent)),
-                   "agents must not collide in a joint step");
+                   "agents do not collide in a joint step");
   clear();
   return done ? std::span<const State>(to_) : std::span<const State>();
 }
 
 bool PibtGenerator::apply(std::span<const LacamConstraint> constraints) {
   return std::ranges::all_of(constraints, [&](const LacamConstraint& order) {
-    GROVE_ASSERT(to_[order.agent] == kNoState, "an agent must have at most one constraint");
+    GROVE_ASSERT(to_[order.agent] == kNoState, "an agent has at most one constraint");
     if (collides(order.agent, order.state)) return false;
     move(order.agent, order.state);
     return true;

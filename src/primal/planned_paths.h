@@ -32,7 +32,8 @@ class PlannedPaths {
 
   // Adds a path. The agent must have none, and `path` must not collide with the other paths.
   void put(AgentIndex agent, Path path) {
-    GROVE_ASSERT(paths_[agent].empty() && !path.empty(), "an agent must have at most one path");
+    GROVE_ASSERT(paths_[agent].empty() && !path.empty(),
+                 "an agent has at most one path, which is not empty");
     reservations_.add(agent, path);
     paths_[agent] = std::move(path);
     versions_[agent] = ++puts_;
@@ -41,10 +42,10 @@ class PlannedPaths {
   }
   // Removes and returns the path of `agent`, which must have one.
   Path take(AgentIndex agent) {
-    GROVE_ASSERT(!paths_[agent].empty(), "a path must exist before it is taken");
+    GROVE_ASSERT(!paths_[agent].empty(), "only an agent that has a path loses it");
     cost_ -= cost(agent);
     steps_moved_ += static_cast<std::int64_t>(paths_[agent].size());
-    GROVE_ASSERT(cost_ >= 0, "the cost of the paths must not become negative");
+    GROVE_ASSERT(cost_ >= 0, "the cost of the paths is not negative");
     reservations_.remove(agent, paths_[agent]);
     return std::exchange(paths_[agent], {});
   }

@@ -4,9 +4,9 @@
 // high-cost agents, whereas high-cost agents find paths around resting agents. Measured on maps of
 // 64x64 cells and den312d, 100 agents, 300 tasks: first plans cost 0.7 to 8 % more than the sum of
 // individual costs; in random order 8 to 14 % more, with highest cost first 12 to 18 % more. If
-// each agent that must visit another agent's destination was planned before that agent, first plans
-// cost 0.5 instead of 0.2 % more (500 agents, 3,000 tasks, warehouse). Later rounds sort by cost
-// with noise (kOrderNoise).
+// each agent that must visit another agent's destination is planned before that other agent, first
+// plans cost 0.5 instead of 0.2 % more (500 agents, 3,000 tasks, warehouse). Later rounds sort by
+// cost with noise (kOrderNoise).
 #include "primal/planner.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ Planner::Planner(const Problem& problem, PrimalLowLevel& low_level, Random& rand
 
 bool Planner::plan_individually(const Limits& limits) {
   AgentIndex& next = states_.as<Individual>().next;
-  GROVE_CHECK(next < agents_, "every agent must be planned individually once");
+  GROVE_CHECK(next < agents_, "each agent is planned individually once");
   const std::int64_t before = low_level_.work();
   const bool has_path = low_level_.plan_individually(next, limits);
   individual_.work += low_level_.work() - before;
@@ -47,13 +47,15 @@ bool Planner::plan_individually(const Limits& limits) {
 
 void Planner::keep_adopted(const Plan& plan) {
   std::optional<Plan>& adopted = states_.as<Individual>().adopted;
-  GROVE_CHECK(!adopted || plan.cost < adopted->cost, "each adopted plan must be cheaper");
+  GROVE_CHECK(!adopted || plan.cost < adopted->cost,
+              "each adopted plan is cheaper than the one before");
   adopted = plan;
 }
 
 std::optional<Plan> Planner::begin_first_round() {
   Individual& individual = states_.as<Individual>();
-  GROVE_CHECK(individual.next == agents_, "every agent needs an individual path before a round");
+  GROVE_CHECK(individual.next == agents_,
+              "every agent has an individual path before the first round");
   std::optional<Plan> adopted = std::move(individual.adopted);
   planning_.begin(agents_by_cost(0));
   states_.enter(FirstRound{new_round()});
@@ -62,12 +64,12 @@ std::optional<Plan> Planner::begin_first_round() {
 
 void Planner::begin_later_round() {
   GROVE_CHECK(std::ranges::all_of(paths_.paths(), &Path::empty),
-              "no path of the previous round must be left");
+              "no path of the previous round is left");
   planning_.begin(agents_by_cost(kOrderNoise));
   states_.enter(LaterRound{new_round()});
 }
 
-// `noise`: maximum relative change of a cost is half of this; 0: no random draws.
+// `noise`: a cost changes by a random fraction of at most `noise` / 2. 0: no random draws.
 std::vector<AgentIndex> Planner::agents_by_cost(double noise) {
   std::vector<std::pair<double, AgentIndex>> keys;
   for (AgentIndex agent = 0; agent < agents_; ++agent) {
@@ -94,12 +96,12 @@ PlannedPaths& Planner::end_round() {
 }
 
 void Planner::add_planning_work(std::int64_t work) {
-  GROVE_CHECK(work >= 0, "effort must not fall");
+  GROVE_CHECK(work >= 0, "effort never falls");
   round().planning_work += work;
 }
 
 void Planner::add_other_work(std::int64_t work) {
-  GROVE_CHECK(work >= 0, "effort must not fall");
+  GROVE_CHECK(work >= 0, "effort never falls");
   round().other_work += work;
 }
 

@@ -40,19 +40,19 @@ class Planner {
   // State kIndividual: plans the next agent. Returns true if all agents have individual paths, or
   // false if agents are left or a limit was reached.
   bool plan_individually(const Limits& limits);
-  // State kIndividual: keeps the latest plan adopted by the search for begin_first_round().
+  // State kIndividual: stores the plan that the search adopted last, until begin_first_round().
   void keep_adopted(const Plan& plan);
 
   // State kIndividual, after the last agent: begins the first round. Returns the adopted plan, if
   // there is one.
   std::optional<Plan> begin_first_round();
-  // State kIdle.
+  // State kIdle: begins a later round.
   void begin_later_round();
   // In a round: runs one step of prioritised planning. `has_rival`: LaCAM or LNS can use part of
   // the effort, so long low-level calls are postponed. Returns true if all agents have paths.
   bool plan(const Limits& limits, bool has_rival);
-  // In a round: ends it. Returns the paths of prioritised planning: those of all agents after
-  // plan() has returned true. The caller removes them.
+  // In a round: ends it. Returns the paths of prioritised planning, which the caller must remove.
+  // They are those of all agents if plan() has returned true.
   PlannedPaths& end_round();
 
   // In a round: the effort of prioritised planning, and that of other heuristics, in this round.
@@ -61,9 +61,9 @@ class Planner {
   void add_planning_work(std::int64_t work);
   void add_other_work(std::int64_t work);
 
-  // Orders started by prioritised planning.
+  // Number of orders started by prioritised planning.
   std::int64_t attempts() const { return planning_.attempts(); }
-  // Failures of prioritised planning in this round.
+  // Number of failures of prioritised planning since the round began.
   std::int64_t failures() const { return planning_.failures(); }
   // See PlannedPaths::steps_moved().
   std::int64_t steps_moved() const { return paths_.steps_moved(); }
@@ -71,7 +71,7 @@ class Planner {
  private:
   struct Individual {
     AgentIndex next = 0;          // this agent and later ones have no individual path yet
-    std::optional<Plan> adopted;  // waits for the first round
+    std::optional<Plan> adopted;  // the first round begins with it
   };
   struct Round {
     std::int64_t patience;  // label limit of a low-level call if there is a rival
@@ -105,7 +105,7 @@ class Planner {
   const Tuning& tuning_;
   StateMachine<State, Individual, FirstRound, Idle, LaterRound> states_;
   IndividualCosts individual_;
-  PlannedPaths paths_;  // of prioritised planning; empty in other states
+  PlannedPaths paths_;  // of prioritised planning; empty outside a round
   PrioritizedPlanning planning_;
 };
 

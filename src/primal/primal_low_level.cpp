@@ -65,7 +65,7 @@ PathOutcome PrimalLowLevel::find(AgentIndex agent, const PathQuery& query, const
   GROVE_ASSERT(
       outcome != PathOutcome::kFound || (path.front() == problem_.instance.agent(agent).start &&
                                          std::ssize(path) - 1 <= query.cutoff),
-      "a path must begin at the agent's start and keep to the cutoff");
+      "a path begins at the agent's start and costs at most the cutoff");
   return outcome;
 }
 
@@ -81,7 +81,7 @@ void PrimalLowLevel::improve(AgentIndex agent, const ReservationTable& others, T
   const Multipliers& multipliers = dual_solution_->multipliers;
   priced_->improve(goals(agent), multipliers.on_finish(agent), others, latest,
                    multipliers.price(agent, path), kMaxPricedLabels, limits, path);
-  GROVE_ASSERT(std::ssize(path) - 1 <= latest, "an improved path must finish by `latest`");
+  GROVE_ASSERT(std::ssize(path) - 1 <= latest, "an improved path finishes by `latest`");
 }
 
 Plan PrimalLowLevel::plan(const std::vector<Path>& paths) {
@@ -90,7 +90,8 @@ Plan PrimalLowLevel::plan(const std::vector<Path>& paths) {
     const Path& path = paths[agent];
     const Sequence sequence = realized_sequence(goals(agent), path);
     plan.agents.push_back(agent_plan(problem_.instance, agent, sequence, path));
-    GROVE_ASSERT(plan.agents.back().cost < std::ssize(path), "an agent must finish on its path");
+    GROVE_ASSERT(plan.agents.back().cost < std::ssize(path),
+                 "an agent finishes by the end of its path");
     plan.cost += plan.agents.back().cost;
   }
   return plan;

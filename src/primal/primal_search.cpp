@@ -15,24 +15,27 @@
 //
 //   improver     owns                     transition when                            to
 //   waiting      -                        a plan is adopted or taken over            LNS
-//   LaCAM        LaCAM                    LaCAM fails                                waiting
+//   LaCAM        LaCAM                    LaCAM fails, or memory is short            waiting
 //                                         an expensive plan is found or adopted      guided
-//                                         another plan is found, adopted, taken over LNS
+//                                         another plan is found or adopted           LNS
+//                                         a plan is taken over                       LNS
 //   guided       traffic-guided LaCAM,    several rounds bring no gain               LNS
 //                rounds without gain      memory is short                            LNS
 //                                         a plan is taken over                       LNS
 //   LNS          use of guidance          an expensive plan is adopted, and guidance guided
 //                                         is possible
-//                                         another plan is adopted or taken over      LNS
+//                                         another plan is adopted                    LNS
+//                                         a plan is taken over                       LNS
 //
 // A plan of prioritised planning is *taken over* by the improver. A plan of another search is
 // *adopted*; during individual planning it waits in the planner. A plan is *expensive* if its cost
-// exceeds the sum of individual costs by kMinLossForGuidance or more. The improver begins in the
-// state waiting if LaCAM is not possible, else in the state LaCAM. Guidance is possible after the
-// transition from LaCAM to LNS. It is impossible after waiting, and done after guided.
+// exceeds the sum of individual costs by a fraction of kMinLossForGuidance or more. The improver
+// begins in the state waiting if LaCAM is not possible, otherwise in the state LaCAM. In the state
+// LNS, guidance is possible after a transition from LaCAM, impossible after waiting, and done after
+// guided.
 //
-// The improver has a current plan in the states guided and LNS. Without one, individual or
-// prioritised planning is in progress. These combinations of states occur:
+// The improver has a current plan only in the states guided and LNS. As long as it has none,
+// individual or prioritised planning is in progress. Only these combinations of states occur:
 //
 //                waiting   LaCAM   guided   LNS
 //   individual      x        x
@@ -43,7 +46,8 @@
 // *Rounds.* LNS improves a plan quickly at first and then stalls in a local optimum; different
 // seeds end in different optima. Therefore a new round starts, with prioritised planning, when LNS
 // has spent as much effort without success as the round took to reach its best plan, and has made
-// at least max(kStallNeighborhoods, kStallNeighborhoodsPerAgent * agents) iterations since then.
+// at least max(kStallNeighborhoods, kStallNeighborhoodsPerAgent * agents) iterations since that
+// plan.
 //
 // *Definition.* W is the effort of individual planning for all agents (IndividualCosts::work).
 //
@@ -59,8 +63,8 @@
 // LaCAM's half of the effort. Prioritised planning keeps the other half, because its plan, if it
 // finds one, is mostly much cheaper. In the first round that plan replaces the current plan only if
 // it is cheaper. Measured on room-64-64-8, 100 agents, 300 tasks: prioritised planning found a plan
-// of cost 28,118 after an effort of 330,000 units, LaCAM one of cost 30,979 after 40,000 units,
-// which LNS had reduced to 30,964 when prioritised planning ended. In the first round a plan
+// of cost 28,118 after an effort of 330,000 units, LaCAM one of cost 30,979 after 40,000 units. LNS
+// had reduced the latter to 30,964 when prioritised planning ended. In the first round a plan
 // adopted from another search does not end prioritised planning either. In later rounds prioritised
 // planning shares the effort with the LNS of the previous round in the same way, so no round waits
 // for a plan that is possibly never found.
@@ -78,9 +82,9 @@
 // so its effort is estimated as min(pp_long_attempt, W/root_work_per_individual_planning)*W.
 //
 // *Dual solutions* of the Lagrangian bound guide only LNS. Prioritised planning with penalties, or
-// from the paths of the dual solution, yields cheaper plans than without (3,976 instead of 4,246
-// for 150 agents on random-32-32-20), but by the time a dual solution exists LNS has found cheaper
-// ones (3,830).
+// from the paths of the dual solution, yields cheaper plans than prioritised planning without them
+// (3,976 instead of 4,246 for 150 agents on random-32-32-20), but by the time a dual solution
+// exists LNS has found cheaper plans (3,830).
 #include "primal/primal_search.h"
 
 #include <algorithm>
@@ -212,7 +216,7 @@ std::optional<Plan> PrimalSearch::Impl::step(const Limits& limits) {
   if (best_.cost() < before) work_at_last_plan_ = work();
   if (!best_.is_unreported() || !may_report(limits)) return std::nullopt;
   Plan plan = low_level_.plan(best_.report(work()));
-  GROVE_CHECK(plan.cost <= best_.cost(), "a plan must not cost more than its paths");
+  GROVE_CHECK(plan.cost <= best_.cost(), "a plan costs at most as much as its paths");
   return plan;
 }
 
@@ -294,13 +298,13 @@ void PrimalSearch::Impl::check_states() const {
   using Of = Planner::State;
   const Planner::State planner = planner_.state();
   GROVE_CHECK(improver_.has_plan() || planner == Of::kIndividual || planner == Of::kFirstRound,
-              "without a plan individual or prioritised planning must be in progress");
+              "without a plan individual or prioritised planning is in progress");
   GROVE_CHECK(!improver_.has_plan() || planner != Of::kIndividual,
-              "a plan must be improved only after individual planning");
+              "a plan is improved only after individual planning");
   GROVE_CHECK(planner != Of::kLaterRound || improver_.state() == Improver::State::kLns,
-              "LNS must improve a plan during a later round");
+              "during a later round LNS improves a plan");
   GROVE_CHECK(improver_.has_plan() || planner == Of::kIndividual || !best_.exists(),
-              "the search must continue from a plan if there is one");
+              "after individual planning the improver has a plan if there is one");
 }
 
 bool PrimalSearch::Impl::expects_plan() const {

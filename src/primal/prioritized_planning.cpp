@@ -47,7 +47,7 @@ constexpr int kGreedPercent = 30;
 }  // namespace
 
 void PrioritizedPlanning::begin(std::vector<AgentIndex> order) {
-  GROVE_CHECK(order.size() == paths_.paths().size(), "an order must hold every agent");
+  GROVE_CHECK(order.size() == paths_.paths().size(), "an order holds every agent");
   order_.agents = std::move(order);
   failures_ = 0;
   greedily_ = false;
@@ -126,7 +126,7 @@ void PrioritizedPlanning::remove_blocking_agents(AgentIndex agent) {
   for (auto other = first_gone; other != planned; ++other) paths_.take(*other);
   std::rotate(first_gone, planned, planned + 1);
   order_.next = static_cast<std::size_t>(first_gone - agents.begin());
-  GROVE_ASSERT(agents[order_.next] == agent, "the agent that failed must be planned next");
+  GROVE_ASSERT(agents[order_.next] == agent, "the agent that failed is planned next");
 }
 
 void PrioritizedPlanning::restart_with_failed_first() {

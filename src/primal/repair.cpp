@@ -53,7 +53,7 @@ class Repair {
       remove_blocking_agents(agent, ++failures_);
     }
     GROVE_CHECK(std::ranges::none_of(paths_.paths(), &Path::empty),
-                "every agent that is not in the queue must have a path");
+                "every agent that is not in the queue has a path");
     for (AgentIndex agent = 0; agent < agents_; ++agent)
       if (!low_level_.plan_individually(agent, limits_)) return std::nullopt;
     return low_level_.plan(paths_.paths());
@@ -85,7 +85,7 @@ class Repair {
                               low_level_.individual_path(agent),
                               static_cast<Time>(1 + random_.below(kLatest)), note);
     if (gone.empty()) gone = some_planned();
-    GROVE_ASSERT(std::ranges::find(gone, agent) == gone.end(), "an agent must not block itself");
+    GROVE_ASSERT(std::ranges::find(gone, agent) == gone.end(), "an agent does not block itself");
     random_.shuffle(gone);
     for (const AgentIndex other : gone) {
       paths_.take(other);

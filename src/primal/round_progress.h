@@ -14,16 +14,16 @@ namespace grove::detail {
 // iterations so far. One thread at a time.
 class RoundProgress {
  public:
-  // A round begins: its first plan is sought, or an adopted plan is its first plan.
+  // Begins a round. Its first plan is still sought, or is a plan that was just adopted.
   void begin_round(std::int64_t work) {
-    GROVE_CHECK(work >= improved_at_work_, "effort must not fall");
+    GROVE_CHECK(work >= improved_at_work_, "effort never falls");
     began_at_work_ = work;
   }
-  // The round has a new plan, or LNS has found the cheapest plan so far of this round.
+  // Records that the round has a new plan, or that LNS has found its cheapest plan so far.
   void note_gain(std::int64_t work, std::int64_t iterations) {
     GROVE_CHECK(
         work >= began_at_work_ && work >= improved_at_work_ && iterations >= improved_at_iteration_,
-        "effort and iterations must not fall");
+        "effort and iterations never fall");
     improved_at_work_ = work;
     improved_at_iteration_ = iterations;
   }
@@ -35,8 +35,8 @@ class RoundProgress {
   }
 
  private:
-  static constexpr std::int64_t kStallNeighborhoods = 200;  // failed ones before a new round
-  // Failed neighbourhoods per agent before a new round; both numbers must be reached.
+  static constexpr std::int64_t kStallNeighborhoods = 200;  // failed iterations before a new round
+  // Failed iterations per agent before a new round. Both numbers must be reached.
   static constexpr std::int64_t kStallNeighborhoodsPerAgent = 10;
 
   std::int64_t began_at_work_ = 0;

@@ -27,13 +27,13 @@ struct Transition {
 template <class Name, class... States>
 class StateMachine {
  public:
-  // `permitted`: all permitted transitions. They must outlive this object.
+  // `permitted`: all permitted transitions; must outlive this object.
   template <class State>
   StateMachine(State first, std::span<const Transition<Name>> permitted)
       : state_(std::move(first)), permitted_(permitted) {}
 
   Name name() const { return static_cast<Name>(state_.index()); }
-  // The current state, which must be a `State`.
+  // The data of the current state, which must be of type `State`.
   template <class State>
   State& as() {
     return state_of<State>(*this);
@@ -48,7 +48,7 @@ class StateMachine {
   void enter(State next) {
     const Transition<Name> transition{name(), name_of<State>()};
     GROVE_CHECK(std::ranges::find(permitted_, transition) != permitted_.end(),
-                "a transition must be in the table of transitions");
+                "a transition is in the table of transitions");
     state_ = std::move(next);
   }
 
@@ -56,7 +56,7 @@ class StateMachine {
   template <class State, class Machine>
   static auto& state_of(Machine& machine) {
     auto* const state = std::get_if<State>(&machine.state_);
-    GROVE_CHECK(state != nullptr, "the data of a state must be used only in this state");
+    GROVE_CHECK(state != nullptr, "the data of a state are used only in this state");
     return *state;
   }
   template <class State>

@@ -29,7 +29,7 @@ Traffic::Traffic(const World& world, double usual, const Tuning& tuning)
 Traffic::Move Traffic::move(Place from, Place to) const {
   const auto neighbors = world_.neighbors(from);
   const auto neighbor = std::ranges::find(neighbors, to);
-  GROVE_ASSERT(neighbor != neighbors.end(), "a move must lead to a neighbour");
+  GROVE_ASSERT(neighbor != neighbors.end(), "a move leads to a neighbour");
   return first_[from] + static_cast<Move>(neighbor - neighbors.begin());
 }
 
@@ -91,7 +91,7 @@ DistanceField Traffic::field(DistanceView distance) {
     for (; !bucket.empty(); --left) {
       const State state = bucket.back();
       bucket.pop_back();
-      GROVE_ASSERT(congestion_cost[state] <= cost, "the cost of a state must not rise");
+      GROVE_ASSERT(congestion_cost[state] <= cost, "the cost of a state never rises");
       if (congestion_cost[state] != cost) continue;
       visit_before(state, [&](State before, Time price) { reach(before, cost + price); });
     }

@@ -43,7 +43,7 @@ TrafficGuidedLacam::TrafficGuidedLacam(const Problem& problem, std::vector<Seque
 }
 
 void TrafficGuidedLacam::learn(const Plan& plan) {
-  GROVE_CHECK(!lacam_ && next_field_ == fields_.end(), "a plan must be learnt between rounds");
+  GROVE_CHECK(!lacam_ && next_field_ == fields_.end(), "a plan is learnt between rounds");
   ++learnt_;
   const double weight = 1.0 / static_cast<double>(std::min(learnt_, tuning_.traffic_plans));
   traffic_.fade(1 - weight);
@@ -58,7 +58,7 @@ void TrafficGuidedLacam::learn(const Plan& plan) {
 }
 
 TrafficGuidedLacam::Outcome TrafficGuidedLacam::run(const Limits& limits, std::int64_t slice) {
-  GROVE_CHECK(learnt_ > 0, "a round must have traffic of a plan");
+  GROVE_CHECK(learnt_ > 0, "a round has the traffic of a plan");
   const std::int64_t end = work_ + slice;
   for (; next_field_ != fields_.end(); ++next_field_) {
     if (work_ >= end) return Outcome::kWorking;
@@ -88,7 +88,7 @@ TrafficGuidedLacam::Outcome TrafficGuidedLacam::search(const Limits& limits, std
   std::int64_t unused = allowed;
   const Lacam::Outcome outcome = lacam_->run(limits, unused);
   const std::int64_t made = allowed - unused;
-  GROVE_CHECK(0 <= made && made <= allowed, "a search must keep to its slice");
+  GROVE_CHECK(0 <= made && made <= allowed, "a search makes at most the steps of its slice");
   steps_left_ -= made;
   joint_steps_ += made;
   work_ += made * agents;

@@ -48,7 +48,7 @@ void VisitStages::go_by_steps() {
 }
 
 VisitStages::Stage VisitStages::make(StopSet left) {
-  GROVE_ASSERT(index_.find(left) == StopSetIndex::kAbsent, "a set of stops must have one stage");
+  GROVE_ASSERT(index_.find(left) == StopSetIndex::kAbsent, "a set of stops has one stage");
   const auto stage = static_cast<Stage>(entries_.size());
   entries_.push_back(entry(left));
   index_.insert(left, static_cast<std::uint32_t>(stage));

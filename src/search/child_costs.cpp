@@ -23,7 +23,8 @@ ChildCosts::Outcome ChildCosts::increase(NodeView& view, const AgentConstraint& 
       break;
     }
     increase += least - view.cost_of(agent);
-    GROVE_ASSERT(increase <= slack, "an increase within the cutoffs of the agents is in the slack");
+    GROVE_ASSERT(increase <= slack,
+                 "an increase within the cutoffs of the agents is within the slack");
   }
   return Outcome::kDone;
 }

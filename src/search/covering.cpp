@@ -63,7 +63,7 @@ class Component {
   }
 
  private:
-  // The sum of what is not fulfilled.
+  // Sum of the excesses that are not fulfilled; at most kInfiniteCost.
   Cost due() const {
     Cost sum = 0;
     for (const Statement& s : statements_) sum = std::min(sum + s.due, kInfiniteCost);

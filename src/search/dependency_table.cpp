@@ -85,9 +85,9 @@ bool DependencyTable::merge_pair(Id first, Id second, AgentIndex agent, ExcessBo
     const ExcessBound before = part.pairs[at].known;
     const ExcessBound now = part.pairs[at].known = join(before, known);
     GROVE_ASSERT(part.pairs[at].first == first && part.pairs[at].second == second,
-                 "the entry found is of the pair asked for");
+                 "the entry found is that of the requested pair");
     GROVE_ASSERT(now.excess >= before.excess && now.exact >= before.exact,
-                 "a known excess only gets stronger");
+                 "a known excess never gets weaker");
     GROVE_ASSERT(now.excess == before.excess || !before.exact, "no excess exceeds an exact one");
     GROVE_ASSERT(now.excess == known.excess || !known.exact, "no excess exceeds an exact one");
     if (known.excess > 0) part.list({agent, second, now.excess}, first);

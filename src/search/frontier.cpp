@@ -134,7 +134,7 @@ std::vector<NodePtr> Frontier::take_for_transfer(std::size_t count, bool keeps_n
   GROVE_ASSERT(
       spare.size() <= count &&
           std::ranges::is_sorted(spare, {}, [&](const NodePtr& node) { return rank(node); }),
-      "nodes are taken for transfer in order of their bounds, at most as many as asked");
+      "nodes are taken for transfer in order of their bounds, at most as many as requested");
   GROVE_ASSERT(!keeps_next || !next || open_.begin()->second.front().node.get() == next,
                "the node that take() would return is kept");
   return spare;
@@ -196,7 +196,7 @@ std::vector<NodePtr> Frontier::evict(std::size_t count, std::size_t keep) {
   }
   open_count_ -= evicted.size();
   GROVE_ASSERT(evicted.size() == count && hold(open_, open_count_),
-               "as many nodes are evicted as asked, and the others stay open");
+               "as many nodes are evicted as requested, and the others stay open");
   GROVE_ASSERT(std::ranges::all_of(evicted,
                                    [&](const NodePtr& node) {
                                      return rank(node) >= evicted_bound_ &&

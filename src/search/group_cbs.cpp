@@ -47,7 +47,8 @@ bool GroupCbs::solve(const NodePtr& node, std::span<const AgentIndex> group, Cos
     ++known.expansions;
     if (outcome == Brancher::Outcome::kConflictFree) {
       known.exact = true;
-      GROVE_ASSERT(known.excess == next.cost - base, "an exact excess is that of the paths found");
+      GROVE_ASSERT(known.excess == next.cost - base,
+                   "an exact excess is the excess of the paths found");
       break;
     }
     if (proof_ != nullptr && brancher_.branching()) log_splits(next, base, closed);
@@ -58,7 +59,7 @@ bool GroupCbs::solve(const NodePtr& node, std::span<const AgentIndex> group, Cos
     known.excess = std::max(known.excess, least == open_.end() ? closed : least->cost - base);
   if (proof_ != nullptr && known.excess > known_before) log_lemma(node, group, known.excess);
   GROVE_ASSERT(known.excess <= std::max(known_before, closed),
-               "no excess beyond the slack is proven, except that there is no plan");
+               "a search raises the excess to at most slack + 1, or to infinity");
   open_.clear();
   return true;
 }
@@ -85,7 +86,7 @@ void GroupCbs::log_splits(const Open& from, Cost base, Cost closed) {
 }
 
 void GroupCbs::log_lemma(const NodePtr& node, std::span<const AgentIndex> group, Cost excess) {
-  GROVE_CHECK(are_a_tree(proof_key(*node), written_), "the splits of a lemma are a tree");
+  GROVE_CHECK(are_a_tree(proof_key(*node), written_), "the splits of a lemma form a tree");
   view_.enter(node, group);
   const ProofLemma lemma = lemma_at(view_, group, excess);
   for (ProofSplit& split : written_)

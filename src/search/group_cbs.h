@@ -20,7 +20,7 @@ class GroupCbs {
  public:
   using ExcessBound = DependencyTable::ExcessBound;
 
-  // All arguments must outlive this object, except that of `options` only options.proof must.
+  // All arguments must outlive this object, except `options`, of which only options.proof must.
   GroupCbs(const Problem& problem, const SearchOptions& options, PathPlanner& planner,
            WorkerCache& memory)
       : proof_(options.proof),
@@ -37,7 +37,7 @@ class GroupCbs {
   // Drops all references to nodes.
   void leave();
 
-  // Counters since construction: nodes expanded, and those of the view and of the brancher.
+  // Counters since construction: nodes expanded, steps of the view, and MDD nodes of the brancher.
   std::int64_t expansions() const { return expansions_; }
   std::int64_t steps() const { return view_.steps(); }
   std::int64_t mdd_nodes() const { return brancher_.mdd_nodes(); }

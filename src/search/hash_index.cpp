@@ -24,7 +24,7 @@ void HashIndex::reserve_one() {
 
 HashIndex::Number HashIndex::add(std::uint32_t hash) {
   GROVE_ASSERT(static_cast<std::size_t>(size_) < slots_.size(),
-               "reserve_one() must be called first");
+               "reserve_one() is called before add()");
   put({hash, size_});
   GROVE_ASSERT(find(hash, [&](Number number) { return number == size_; }) == size_,
                "an entry that was added is found");

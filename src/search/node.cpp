@@ -14,7 +14,7 @@ Cost cost_of_root(const Tree& tree) {
   return cost;
 }
 
-// True if each of `paths` is of another agent of `tree`, and none is empty.
+// True if each of `paths` is of a different agent of `tree`, and none is empty.
 bool are_of_distinct_agents(std::span<const NewPath> paths, const Tree& tree) {
   return std::ranges::all_of(paths, [&](const NewPath& path) {
     return path.agent >= 0 && path.agent < std::ssize(tree.orders) && !path.path->empty() &&

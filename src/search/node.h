@@ -58,7 +58,7 @@ class NodePtr {
 
   const Node& operator*() const { return *operator->(); }
   const Node* operator->() const {
-    GROVE_ASSERT(node_, "the pointer must not be null");
+    GROVE_ASSERT(node_, "the pointer is not null");
     return node_;
   }
   const Node* get() const { return node_; }

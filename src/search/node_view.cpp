@@ -25,7 +25,7 @@ NodeView::NodeView(const Problem& problem, const SearchOptions& options, WorkerC
 
 void NodeView::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
   GROVE_ASSERT(node && std::ranges::is_sorted(scope),
-               "the agents of a scope must be in ascending order");
+               "the agents of a scope are in ascending order");
   if (audit_) audit(problem_, *node, scope);
   node_ = node;
   scope_.assign(scope.begin(), scope.end());

@@ -75,7 +75,7 @@ std::size_t packed_words(const World& world, std::uint32_t steps) {
 }
 
 void pack(const World& world, const Path& path, std::uint64_t* words) {
-  GROVE_ASSERT(!path.empty(), "a path must not be empty");
+  GROVE_ASSERT(!path.empty(), "a path is not empty");
   with_codes(world, [&](const auto& codes, std::uint32_t bits) {
     const std::uint32_t per_word = 64 / bits;
     for (std::uint32_t step = 0; step + 1 < path.size(); ++step) {
@@ -99,7 +99,7 @@ void PackedSteps::unpack(const World& world, State start, Path& path) const {
     std::uint64_t word = 0;
     for (std::uint32_t step = 0; step < steps; ++step) {
       if (step % per_word == 0) word = words[step / per_word];
-      GROVE_ASSERT(codes.has(state, word & mask), "an unpacked path must be a walk");
+      GROVE_ASSERT(codes.has(state, word & mask), "an unpacked path is a walk");
       const State next = codes.after(state, word & mask);
       GROVE_ASSERT(codes.is_step(state, next), "an unpacked step is a move of the world");
       state = next;

@@ -58,7 +58,7 @@ const Mdd* WorkerCache::paths(Id id, AgentIndex agent, const AgentSequencing& or
     set = MddCache::make(planner_, agent, order, constraints, cost,
                          static_cast<std::size_t>(max_mdd_nodes_), limits);
   if (!set) return nullptr;
-  GROVE_ASSERT(set->empty() || set->cost() == cost, "a cached MDD has the cost asked for");
+  GROVE_ASSERT(set->empty() || set->cost() == cost, "a cached MDD has the requested cost");
   return (found_.mdds[id] = std::move(set)).get();
 }
 
@@ -77,7 +77,7 @@ void WorkerCache::merge_pair(Id first, Id second, AgentIndex agent,
                                       return std::pair(p.first, p.second) ==
                                              std::pair(first, second);
                                     }),
-               "a worker has one own entry of a pair");
+               "a worker has one entry of its own for a pair");
   found_.pairs.push_back({first, second, agent, known});
 }
 

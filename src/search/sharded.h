@@ -23,7 +23,7 @@ class Sharded {
 
   // The number of the part that holds `key`, which must not be negative.
   static constexpr std::size_t part_of(std::integral auto key) {
-    GROVE_ASSERT(key >= 0, "keys must not be negative");
+    GROVE_ASSERT(key >= 0, "keys are not negative");
     return static_cast<std::size_t>(key) % kParts;
   }
 

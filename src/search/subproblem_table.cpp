@@ -85,7 +85,7 @@ void add_to_canonical(std::vector<Constraint>& constraints, const Constraint& mo
 
 SubproblemTable::Id SubproblemTable::id(AgentIndex agent, const AgentSequencing& order,
                                         std::span<const Constraint> constraints) {
-  GROVE_ASSERT(is_canonical(constraints), "constraints must be in canonical order");
+  GROVE_ASSERT(is_canonical(constraints), "constraints are in canonical order");
   std::string& key = key_begun(agent, order);
   pack(constraints, key);
   return id_of_key(order, key);
@@ -103,7 +103,7 @@ SubproblemTable::Id SubproblemTable::id_of_key(const AgentSequencing& order, std
   const Id at = parts_.with(number, [&](Part& part) {
     const std::size_t before = part.bytes();
     const Id id = part.find_or_add(static_cast<std::uint32_t>(hash), key);
-    GROVE_ASSERT(part.key(id) == key, "the entry found has the key asked for");
+    GROVE_ASSERT(part.key(id) == key, "the entry found has the requested key");
     bytes_ += part.bytes() - before;
     return id;
   });
@@ -136,7 +136,7 @@ bool SubproblemTable::merge(Id id, CostBound learnt) {
     GROVE_ASSERT(!before.exact || learnt.lower_bound <= before.lower_bound,
                  "no lower bound exceeds an exact cost");
     GROVE_ASSERT(known.lower_bound >= before.lower_bound && known.exact >= before.exact,
-                 "a known cost bound only gets stronger");
+                 "a known cost bound never gets weaker");
     return known != before;
   });
 }
@@ -146,7 +146,7 @@ SubproblemTable::Id SubproblemTable::Part::find_or_add(std::uint32_t hash,
   const Id found = index.find(hash, [&](Id entry) { return key(entry) == sought; });
   if (found != HashIndex::kNone) return found;
   const auto first = static_cast<std::uint32_t>(keys.size());
-  GROVE_ASSERT(first == keys.size(), "the key offsets must fit into 32 bits");
+  GROVE_ASSERT(first == keys.size(), "the key offsets fit into 32 bits");
   index.reserve_one();
   entries.push_back({first, {}});
   try {

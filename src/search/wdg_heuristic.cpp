@@ -133,7 +133,7 @@ void WdgHeuristic::load_subproblems(NodeView& view) {
   for (AgentIndex agent = 0; agent < agents_; ++agent) {
     subproblem_[agent] = view.subproblem(agent);
     GROVE_ASSERT(may_cost(agent, view.cost_of(agent)),
-                 "an agent's path at a node must be a cheapest path of its subproblem");
+                 "an agent's path at a node is a cheapest path of its subproblem");
   }
 }
 

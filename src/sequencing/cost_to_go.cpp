@@ -259,12 +259,13 @@ Time CostToGo::outside_bound() const {
 }
 
 Time CostToGo::cost_to_go(StopSet left, int port) const {
-  GROVE_ASSERT((left & bit(port / matrix().ports)) == 0, "the stop of a port is not left");
+  GROVE_ASSERT((left & bit(port / matrix().ports)) == 0,
+               "the stop of a port is not among the stops left");
   return store_->cost_to_go(left, port);
 }
 
 bool CostToGo::extend(Time cost_limit, const Limits& limits) {
-  GROVE_ASSERT(cost_limit < kNever, "the cost limit must be finite");
+  GROVE_ASSERT(cost_limit < kNever, "the cost limit is finite");
   if (outside_bound() > cost_limit) return true;
   if (cost_limit >= refused_) return false;
   const auto known = std::ranges::find_if(extended_, [&](const Extension& extended) {
@@ -273,7 +274,7 @@ bool CostToGo::extend(Time cost_limit, const Limits& limits) {
   if (known != extended_.end()) {
     std::rotate(extended_.begin(), known, known + 1);
     store_ = extended_.front().to;
-    GROVE_CHECK(outside_bound() > cost_limit, "an extension that is known covers the cost limit");
+    GROVE_CHECK(outside_bound() > cost_limit, "a known extension covers the cost limit");
     return true;
   }
   auto extended = store_->extended(cost_limit, limits);

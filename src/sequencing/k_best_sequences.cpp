@@ -162,7 +162,7 @@ Time KBestSequences::resolve(std::size_t rank, Time cutoff) {
   return partition_->resolve(rank, cutoff);
 }
 const Sequence& KBestSequences::sequence(std::size_t rank) {
-  GROVE_ASSERT(known(rank), "best() must be called before best_sequence()");
+  GROVE_ASSERT(known(rank), "the sequence of a rank is known before it is read");
   return partition_->sequence(rank);
 }
 std::int64_t KBestSequences::rtsp_calls() const {

@@ -22,7 +22,7 @@ struct ClassRoot {
 inline ClassRoot class_root(const CostMatrix& matrix, const SequenceClass& sequence_class) {
   ClassRoot root{0, matrix.stops(), matrix.all(), 0};
   for (Stop stop : sequence_class.prefix) {
-    GROVE_ASSERT((root.left & bit(stop)) != 0, "a prefix must not repeat a stop");
+    GROVE_ASSERT((root.left & bit(stop)) != 0, "a prefix does not repeat a stop");
     root.cost = add_costs(root.cost, matrix.between(root.last, stop));
     root.last = stop;
     root.left &= ~bit(stop);

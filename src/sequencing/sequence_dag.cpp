@@ -543,7 +543,7 @@ std::optional<SequenceDag> SequenceDag::build(const CostMatrix& matrix,
 SequenceDag::End SequenceDag::build(const Scope& scope, Time cost_limit, const Limits& limits,
                                     SequenceDag& dag) {
   if (scope.matrix.ports == 1) return SequenceDagBuilder<1>(scope, cost_limit, limits).build(dag);
-  GROVE_ASSERT(scope.matrix.ports == 4, "a stop must have one port, or one for each heading");
+  GROVE_ASSERT(scope.matrix.ports == 4, "a stop has one port, or one for each heading");
   return SequenceDagBuilder<4>(scope, cost_limit, limits).build(dag);
 }
 

@@ -46,11 +46,11 @@ inline std::size_t StopSetIndex::slot_of(StopSet set) const {
 inline std::uint32_t StopSetIndex::insert(StopSet set, std::uint32_t number) {
   Slot& slot = slots_[slot_of(set)];
   if (slot.number != kAbsent) return slot.number;
-  GROVE_ASSERT(number != kAbsent, "a number is not the mark of an absent set");
+  GROVE_ASSERT(number != kAbsent, "a number differs from the mark of an absent set");
   slot = {set, number};
   if (2 * ++used_ > slots_.size()) grow();
   GROVE_ASSERT(find(set) == number && 2 * used_ <= slots_.size(),
-               "a set is found under its number, and half of the slots are free");
+               "a set is found under its number, and at least half of the slots are free");
   return number;
 }
 

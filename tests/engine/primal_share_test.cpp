@@ -51,7 +51,7 @@ TEST(PrimalShare, FollowsTheLastGain) {
     EXPECT_EQ(wanted_primal_share(s.primal, 12, Tuning()),
               std::clamp(8 * x * x * x, 1.0 / 32, 8.0));
   }
-  EXPECT_LT(min_x, 0.2) << "too successful to be a test";
+  EXPECT_LT(min_x, 0.2) << "the search must stall for this test";
   EXPECT_EQ(max_x, 1);
 }
 

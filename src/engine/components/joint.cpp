@@ -2,13 +2,13 @@
 // The component that searches joint states (joint/epea_star.h).
 //
 // *Share.* The tree search starts alone, because its first nodes solve most small instances. In an
-// unsolved instance with few joint states, often all agents are in each other's way; there the
-// joint search ends soon, and the tree search perhaps never. It is not known in advance which of
-// the two ends first, so they share the effort: after joint_start_work, joint search gets up to
-// joint_max_share units per unit of other effort. When joint search has ended or exceeds its
-// memory, it gets no more effort.
+// unsolved instance with few joint states, all agents are often in each other's way. Then the joint
+// search ends soon, but the tree search may never end. It is not known in advance which of the two
+// ends first, so they share the effort: after joint_start_work, the joint search gets up to
+// joint_max_share units per unit of other effort. Once it has ended or exceeded its memory limit,
+// it gets no more effort.
 //
-// One worker of the run performs it, because it is one sequential search.
+// Only worker 0 of the run performs it, because it is one sequential search.
 #include <algorithm>
 #include <cstddef>
 #include <mutex>
@@ -110,7 +110,7 @@ JointWork::Progress JointWork::run() {
   GROVE_CHECK(progress.proven >= proven_, "the bound of the joint search never falls");
   proven_ = progress.proven;
   if (outcome == Outcome::kTooLarge) {
-    search_.reset();  // free its memory for the tree
+    search_.reset();  // frees memory for the tree search
     progress.plan.reset();
   }
   return progress;

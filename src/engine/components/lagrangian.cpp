@@ -6,9 +6,9 @@
 // Lagrangian bound, so without an incumbent the bound starts only after ten times
 // lagrangian_start_work. With fewer than lagrangian_min_agents agents the tree search gives the
 // better bound, so the Lagrangian bound is not tried. Otherwise the bound gets its share of the
-// effort (lagrangian_max_share) until it stops: it promises less than the proven bound, can gain no
-// more, or has failed (PricingJob::failed). A worker that has nothing else to do works on it in any
-// case.
+// effort (lagrangian_max_share) until it ends, because it promises less than the proven bound, can
+// rise no further, or has failed (PricingJob::failed). A worker that has nothing else to do works
+// on it regardless of the share.
 //
 // With several ranks, rank 0 owns the bound, and the other ranks solve pricing problems for it.
 // They do so before all other work items, because the bound cannot continue without the subproblem
@@ -79,7 +79,7 @@ class PricingWork : public WorkSource {
   std::optional<Pricer> pricer_;  // of this worker
 };
 
-// The process that owns the bound: rank 0.
+// The component on rank 0, which owns the bound.
 class LagrangianOwner : public Component {
  public:
   explicit LagrangianOwner(const ComponentContext& context)
@@ -139,7 +139,7 @@ class LagrangianOwner : public Component {
   std::mutex posting_;
   std::atomic<int> rounds_{0};
 
-  // Of the communicating thread.
+  // Changed only by the communicating thread.
   PricingDispatcher helpers_;                // helper h is rank h + 1
   std::vector<std::int64_t> expected_work_;  // by rank: expected effort of its request
   std::atomic<std::int64_t> remote_pricings_{0};
@@ -160,7 +160,7 @@ std::optional<PricingJob> LagrangianOwner::next() {
   return is_over_ ? std::nullopt : queue()->next();
 }
 
-// If there is not enough memory, the run does without a Lagrangian bound.
+// If there is not enough memory, the run continues without a Lagrangian bound.
 void LagrangianOwner::make() {
   const Tuning& tuning = context_.options.tuning;
   try {
@@ -191,8 +191,8 @@ void LagrangianOwner::log_proof(ProofLog& proof) const {
   proof.prices(queue->lower_bound(), queue->bound().best_multipliers());
 }
 
-// Requested effort counts as spent when the request is made, so that rank 0 does other work items
-// in the meantime.
+// Requested effort counts as spent as soon as the request is made, so that rank 0 does other work
+// items in the meantime.
 std::vector<std::pair<int, ComponentMessage>> LagrangianOwner::take_messages() {
   std::vector<std::pair<int, ComponentMessage>> messages;
   PricingQueue* const queue = is_over_ ? nullptr : this->queue();
@@ -215,7 +215,7 @@ void LagrangianOwner::receive(int from, const ComponentMessage& message) {
   post_results();
 }
 
-// The process of another rank, which solves pricing problems for rank 0.
+// The component on another rank, which solves pricing problems for rank 0.
 class LagrangianHelper : public Component {
  public:
   explicit LagrangianHelper(const ComponentContext& context) : context_(context) {}

@@ -11,7 +11,7 @@ namespace grove::detail {
 
 std::string bytes_of(const PricingRequest& request);
 std::string bytes_of(const PricingReply& reply);
-// Inverse of bytes_of(). Throw std::invalid_argument if `bytes` is not such a message.
+// Inverses of bytes_of(). They throw std::invalid_argument if `bytes` is not a valid message.
 PricingRequest pricing_request_of(std::string_view bytes);
 PricingReply pricing_reply_of(std::string_view bytes);
 

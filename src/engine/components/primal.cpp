@@ -5,15 +5,15 @@
 // *Share.* Once the tree search has spent kStartWork, the primal search may spend r units per unit
 // of tree effort, 1/32 <= r <= 8:
 // - With a plan, r = 8 x^3, where x = (primal effort at the last improvement) / (primal effort so
-//   far). x is 1 right after an improvement, and 1/2 when the same effort again brought none. For x
-//   = 1, 1/2, 1/4, r is 8, 1, 1/8.
+//   far). x is 1 right after an improvement, and 1/2 when the same effort again brought none. So r
+//   is 8, 1 and 1/8 for x of 1, 1/2 and 1/4.
 // - Without a plan, r = 8, because without an incumbent nothing is pruned, and a run that reaches a
 //   limit has no result. After two failed attempts per agent r = 1, because the instance may have
 //   no plan. While the primal search expects a plan soon, its claim is urgent, because expanding
 //   the root of a large instance can take seconds.
 // - Floor: r >= 1 while the bound proven outside the tree search exceeds the tree's bound, because
 //   then tree effort does not raise the lower bound, and while the gap exceeds large_gap, because
-//   then the tree search does not close the gap soon. Without the floor r could fall too low, since
+//   then the tree search will not close the gap soon. Without the floor r could fall too low, since
 //   neighbourhoods can fail a hundred times before the first of many gains.
 // - Cap: r <= clamp(8 t, 1/4, 8), where t = (tree effort) / primal_full_share_work, because the
 //   tree search solves most small instances within tenths of a second, whatever the incumbent.

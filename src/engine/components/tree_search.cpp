@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Node selection. With w = 0 the best node is always taken.
+// Node selection, for the tolerance w (omega). With w = 0 the best node is always taken.
 //
 // With w > 0, a plan within w of the lower bound ends the run at once. Any node whose bound is
 // within w of the lower bound can lead to such a plan. Among these nodes the one with the least
@@ -11,7 +11,7 @@
 // below C / (1 + w) must be expanded, in any order. Expanding a node above that bound could only
 // yield a better plan, which neighbourhood search usually finds sooner.
 //
-// A node is live, and counts in the lower bound, until all its children have been pushed.
+// A node is live, and counts in the lower bound, until all its children have been pushed or pruned.
 #include "engine/components/tree_search.h"
 
 #include <algorithm>
@@ -49,7 +49,7 @@ class TreeWork : public WorkSource {
   TreeSearch& search_;
   const ComponentContext& context_;
   const int worker_;
-  NodePtr helped_;  // last node for which there was nothing left to assist with
+  NodePtr helped_;  // last node with which there was nothing left to help
 
   mutable std::mutex counting_;  // guards the counts below
   ExpansionCounts counts_;

@@ -13,8 +13,8 @@
 namespace grove::detail {
 
 // Selects nodes of this process, and stores the results of their expansion. A worker expands a node
-// or, if none is open, helps another worker with its node. No function waits longer than a similar
-// call on another thread takes.
+// or, if none is open, helps another worker with its node. No function blocks for longer than a
+// similar call on another thread takes.
 class TreeSearch : public Component {
  public:
   explicit TreeSearch(const ComponentContext& context);
@@ -26,8 +26,8 @@ class TreeSearch : public Component {
   void add_memory(MemoryUse& memory) const override;
   void keep_within_memory() override { context_.memory.keep_within_memory(); }
 
-  // Takes a node to expand. Returns nullptr if no node is open. The caller must return the node by
-  // finish().
+  // Takes a node to expand. Returns nullptr if no node is open. The caller must return the node
+  // with finish().
   NodePtr take();
   // Returns a taken node with its expansion. `worker` is the number of the worker that expanded it.
   void finish(const NodePtr& node, Expansion expansion, int worker);
