@@ -103,7 +103,7 @@ void PricingQueue::commit(Job job) {
   if (job.first == job.end) {
     work_between_ += job.work;
     dual_solution_ = bound_->dual_solution();
-    end_pricing_if_done();  // other threads may have priced all agents of the next round meanwhile
+    end_pricing_if_done();  // other threads may have priced all agents by now
     return;
   }
   for (AgentIndex agent = job.first; agent < job.end; ++agent) {
