@@ -283,15 +283,15 @@ RunStatistics Rank::statistics(Counters counters) const {
   counters[Counter::kNodesSent] += custody_.nodes_sent();
   counters[Counter::kLearnedBoundsSent] += learned_bounds_.sent();
   counters[Counter::kNodeBatches] += custody_.batches_sent();
-  RunStatistics statistics{{counters.named(), components_.memory_use()}, {}};
-  RankStatistics& mine = statistics.ranks[transport_.rank()];
+  RankStatistics mine;
+  mine.low_level_calls = counters[Counter::kLowLevelCalls];
+  mine.branching_cost_queries = counters[Counter::kBranchingCostQueries];
   mine.expanded = nodes_.expanded;
   mine.open = nodes_.counts().open;
   if (nodes_.any()) mine.bound = nodes_.bound();
-  mine.memory = statistics.whole.memory.process;
-  mine.low_level_calls = counters[Counter::kLowLevelCalls];
-  mine.branching_cost_queries = counters[Counter::kBranchingCostQueries];
-  return statistics;
+  const MemoryUse memory = components_.memory_use();
+  mine.memory = memory.process;
+  return {{counters.named(), memory}, {{transport_.rank(), mine}}};
 }
 
 void Rank::send_statistics(const Counters& counters) {
