@@ -60,7 +60,8 @@ class WorkItem {
   virtual void publish() {}
   // Posts plans and bounds (SharedBounds), and makes all other results visible.
   virtual void commit() = 0;
-  // Discards the results of perform(), because the run ends. Afterwards commit() posts none.
+  // Must be called before commit() if the run ends while perform() is in progress, in simulated
+  // time. An item that has taken a node then returns the node in commit().
   virtual void abandon() {}
 
   // Effort of perform(), by which the engine divides its time; see engine/scheduler.cpp.
