@@ -107,7 +107,11 @@ class Simulation {
   SimulatedRun run() {
     bool stopped = false;
     while (left_ < std::ssize(ranks_) && !stopped) {
-      if (agenda_.empty()) throw std::logic_error("the simulated search has no next event");
+      if (agenda_.empty()) {
+        stopped = setting_.limits.stop_requested();  // before the first tree
+        if (stopped) break;
+        throw std::logic_error("the simulated search has no next event");
+      }
       const Event event = agenda_.top();
       agenda_.pop();
       setting_.network.advance_to(event.time);
