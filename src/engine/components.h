@@ -20,6 +20,7 @@ std::unique_ptr<Component> make_primal_component(const ComponentContext& context
 std::unique_ptr<Component> make_tree_preparation(const ComponentContext& context);
 std::unique_ptr<Component> make_lagrangian_component(const ComponentContext& context);
 std::unique_ptr<Component> make_joint_component(const ComponentContext& context);
+std::unique_ptr<Component> make_cores_component(const ComponentContext& context);
 
 // Number of a process within the run, and number of processes.
 struct ProcessPlace {

@@ -22,6 +22,10 @@ inline constexpr std::int64_t kMoveTuples = 20;    // joint moves tried for a pa
 inline constexpr std::int64_t kPricedLabels = 2;   // labels of a search under multipliers
 inline constexpr std::int64_t kCountedSteps = 32;  // path steps counted between pricing rounds
 
+inline constexpr std::int64_t kPerSolverRound = 1;      // of the main loop of the SAT solver
+inline constexpr std::int64_t kPerSolverConflict = 200;
+inline constexpr std::int64_t kClauseLiterals = 4;      // added to the SAT solver
+
 // Rates that estimate the duration of an expansion: labels and calls as above, and the other
 // operations in ExpansionCounts. Fitted by regression to the processor time of single expansions.
 // *Measured* on six instances of 10 to 80 agents: a unit takes 0.11 to 0.26 microseconds,

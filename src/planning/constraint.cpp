@@ -96,6 +96,20 @@ bool satisfies(const World& world, const Path& path, const Constraint& c,
   throw std::invalid_argument("a sequence constraint does not apply to paths");
 }
 
+bool violates(const Constraint& c, Place place, Time time, bool is_last) {
+  switch (c.kind) {
+    case ConstraintKind::kVertexOrEdge:
+      return !c.is_move() && place == c.cell && time <= c.end &&
+             (is_last ? c.begin <= c.end : c.begin <= time);
+    case ConstraintKind::kNoRestBy:
+      return is_last && place == c.cell && time <= c.end;
+    case ConstraintKind::kRestBy:
+      return is_last && (place != c.cell || time > c.end);
+    default:
+      return false;
+  }
+}
+
 std::optional<Constraint> constraint_on(AgentIndex agent, const AgentConstraint& added) {
   const Constraint& c = added.constraint;
   if (agent == added.agent) return c;

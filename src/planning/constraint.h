@@ -75,6 +75,12 @@ inline bool is_about_sequence(const Constraint& c) {
 bool satisfies(const World& world, const Path& path, const Constraint& c,
                const Corridors& corridors);
 
+// Does an agent violate `c` by its presence on `place` at `time`? `is_last`: `time` is its last
+// arrival, so that it stays forever. A path satisfies a constraint on places (kVertexOrEdge without
+// `from`), kNoRestBy or kRestBy exactly if none of its presences violates the constraint. False for
+// the other constraints, which are about more than one time.
+bool violates(const Constraint& c, Place place, Time time, bool is_last);
+
 // A constraint and the agent that it constrains.
 struct AgentConstraint {
   AgentIndex agent = -1;  // -1: no agent is constrained

@@ -16,10 +16,11 @@ enum class PlanSource : std::uint8_t {
   kLacam,                // LaCAM
   kLns,                  // large neighbourhood search
   kJointSearch,          // A* over joint states
+  kCores,                // core-guided search
 };
-inline constexpr PlanSource kLastPlanSource = PlanSource::kJointSearch;
-inline constexpr std::array<std::string_view, 6> kPlanSources{"tree",  "start", "prioritized",
-                                                              "lacam", "lns",   "joint"};
+inline constexpr PlanSource kLastPlanSource = PlanSource::kCores;
+inline constexpr std::array<std::string_view, 7> kPlanSources{
+    "tree", "start", "prioritized", "lacam", "lns", "joint", "cores"};
 static_assert(kPlanSources.size() == static_cast<std::size_t>(kLastPlanSource) + 1);
 
 // The name of a source in files and logs.

@@ -31,6 +31,7 @@ enum class Technique : std::uint8_t {
   kLagrangian,       // Lagrangian bound, if there are many agents
   kJointGroups,      // A* over joint states for pairs and groups that splits do not solve
   kLagrangianLns,    // LNS: the Lagrangian multipliers guide which paths to re-plan, and how
+  kCores,            // bounds from unsatisfiable cores (SAT)
 };
 
 struct NamedTechnique {
@@ -56,6 +57,7 @@ inline constexpr std::array kTechniques = {
     NamedTechnique{Technique::kLagrangian, "lagrangian"},
     NamedTechnique{Technique::kJointGroups, "joint-groups"},
     NamedTechnique{Technique::kLagrangianLns, "lagrangian-lns"},
+    NamedTechnique{Technique::kCores, "cores"},
 };
 
 // Names of removed techniques. The option parser reports them as removed.

@@ -69,6 +69,8 @@ char letter_of(PlanSource source) {
       return 'L';
     case PlanSource::kJointSearch:
       return 'J';
+    case PlanSource::kCores:
+      return 'U';
     case PlanSource::kTree:
       break;
   }
@@ -126,8 +128,8 @@ void TextLog::head(const LogHead& h) {
   sink_.line(
       "First column: source of a new incumbent (* tree search, H prioritised planning, C LaCAM,");
   sink_.line(
-      "L large neighbourhood search, J joint search, S start plan); else B if the lower bound "
-      "rose;");
+      "L large neighbourhood search, J joint search, U unsatisfiable cores, S start plan); else B if "
+      "the lower bound rose;");
   sink_.line(
       "else T for a new tree. expanded, open: constraint-tree nodes expanded and still open.");
   sink_.line("lower bound: no plan costs less. incumbent: cost of the best plan so far.");

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// *Literals.* One for each node of the graph, "the walk contains the node"; for each presence of
+// the agent; for each limit on its cost; and for each constraint. All clauses are implications:
+//
+//   node and within(e)         -> one of its successors with excess <= e   (e >= its excess)
+//   within(e)                  -> one of the starts with excess <= e
+//   within(e)                  -> within(e + 1)
+//   node                       -> its presence
+//   satisfies(c) and presence  -> false, if the presence violates c
+//   satisfies(c) and two presences of a move -> false, if c bars the move
+//
+// (traversal_clauses.cpp has those of traversals.)
+//
+// *Claim: the contract of the class holds.* *Proof.* Let p be a path that costs least_cost + e
+// or less, for the least such e. By the claim in path_graph.cpp there is a walk with the same
+// places, the same last arrival and a cost that is not greater; it satisfies the same constraints,
+// which depend on nothing else (constraint.h). Make true: its nodes and their presences, within(e')
+// for e' >= e, and satisfies(c) for the constraints that p satisfies. The nodes of a walk with
+// excess <= e have excess <= e, so each of them has a successor as required, or is final. The other
+// clauses are obvious. If the cost of p is beyond the levels, all within(e) that occur in node
+// clauses are false, and no node is needed, only the presences of p that have literals.
+//
+// A model of the clauses may contain more than one walk. path() takes one of them; it satisfies the
+// constraints whose literals are true, because no presence of the model violates one of them.
+#include "cores/path_clauses.h"
+
+#include <algorithm>
+
+#include "model/assert.h"
+
+namespace grove::detail {
+
+PathClauses::PathClauses(SatSolver& solver, const PathGraph& graph, const Corridors& corridors)
+    : solver_(solver),
+      graph_(graph),
+      corridors_(corridors),
+      is_node_presence_(graph.has_one_node_per_presence()) {}
+
+void PathClauses::grow() {
+  const Time level = levels_++;
+  const Literal limit = within(level);
+  nodes_.resize(graph_.count(), 0);
+  std::vector<Literal> clause{-limit};
+  for (const PathGraph::Node node : graph_.starts())
+    if (graph_.excess(node) <= level) clause.push_back(literal_of(node));
+  solver_.add(clause);
+  for (PathGraph::Node node = 0; node < graph_.count(); ++node)
+    if (graph_.excess(node) <= level) add_walk_clauses(node);
+}
+
+// A final node needs no successor.
+void PathClauses::add_walk_clauses(PathGraph::Node node) {
+  if (graph_.is_final(node)) return;
+  const Time level = levels_ - 1;
+  std::vector<Literal> clause{-within(level), -literal_of(node)};
+  for (const PathGraph::Node next : graph_.successors(node))
+    if (graph_.excess(next) <= level) clause.push_back(literal_of(next));
+  GROVE_ASSERT(clause.size() > 2, "a node within the level has a successor within the level");
+  solver_.add(clause);
+}
+
+Literal PathClauses::within(Time excess) {
+  while (std::ssize(within_) <= excess) {
+    within_.push_back(solver_.new_variable());
+    if (within_.size() > 1) solver_.add({-within_[within_.size() - 2], within_.back()});
+  }
+  return within_[excess];
+}
+
+Literal PathClauses::literal_of(PathGraph::Node node) {
+  Literal& known = nodes_[node];
+  if (known != 0) return known;
+  const Time arrival = graph_.arrival(node);
+  const bool is_last = arrival != PathGraph::kOnTheWay;
+  const Presence presence{graph_.place(node), graph_.time(node), is_last};
+  if (is_last && arrival < graph_.time(node)) return known = solver_.new_variable();
+  if (is_node_presence_) return known = literal_of(presence);
+  const Literal literal = solver_.new_variable();
+  known = literal;
+  solver_.add({-literal, literal_of(presence)});
+  return literal;
+}
+
+Literal PathClauses::literal_of(const Presence& presence) {
+  if (const Literal known = presences_.find(presence)) return known;
+  const Literal literal = solver_.new_variable();
+  presences_.insert(presence, literal);
+  for (TraversalClauses& traversals : traversals_) traversals.add(presence, literal, presences_);
+  if (const auto on = constraints_on_.find(presence.place); on != constraints_on_.end())
+    for (const std::size_t index : on->second) restrict_presence(constraints_[index], presence);
+  if (presence.is_last)
+    for (const std::size_t index : rest_bys_) restrict_presence(constraints_[index], presence);
+  return literal;
+}
+
+Literal PathClauses::satisfies(const Constraint& constraint) {
+  GROVE_CHECK(!is_about_sequence(constraint), "a path decides the constraint");
+  const std::size_t index = constraints_.size();
+  Constraints& on = constraints_on_[constraint.cell];
+  for (const std::size_t known : on)
+    if (constraints_[known].constraint == constraint) return constraints_[known].literal;
+  const Literal literal = solver_.new_variable();
+  constraints_.push_back({constraint, literal});
+  on.push_back(index);
+  if (constraint.kind == ConstraintKind::kNoTraversal) {
+    traversals(constraint).forbid(constraint.begin, constraint.end, literal);
+    return literal;
+  }
+  if (constraint.is_move()) constraints_on_[constraint.from].push_back(index);
+  if (constraint.kind == ConstraintKind::kRestBy) rest_bys_.push_back(index);
+  for (const auto& [presence, of_presence] : presences_.all())
+    restrict_presence(constraints_.back(), presence);
+  return literal;
+}
+
+void PathClauses::restrict_presence(const ConstraintLiteral& by, const Presence& presence) {
+  if (by.constraint.is_move()) return restrict_move(by, presence);
+  if (violates(by.constraint, presence.place, presence.time, presence.is_last))
+    solver_.add({-by.literal, -presences_.find(presence)});
+}
+
+void PathClauses::restrict_move(const ConstraintLiteral& by, const Presence& presence) {
+  const Constraint& c = by.constraint;
+  const auto [place, time, is_last] = presence;
+  const Literal literal = presences_.find(presence);
+  const auto is_barred = [&](Time arrival) { return c.begin <= arrival && arrival <= c.end; };
+  if (place == c.cell && is_barred(time))
+    if (const Literal before = presences_.find({c.from, time - 1, false}))
+      solver_.add({-by.literal, -before, -literal});
+  if (place == c.from && !is_last && is_barred(time + 1))
+    presences_.for_each_at(c.cell, time + 1, [&](Literal after) {
+      solver_.add({-by.literal, -literal, -after});
+    });
+}
+
+TraversalClauses& PathClauses::traversals(const Constraint& constraint) {
+  for (TraversalClauses& known : traversals_)
+    if (known.is_about(constraint)) return known;
+  TraversalClauses& made = traversals_.emplace_back(solver_, corridors_, constraint);
+  PresenceLiterals added;
+  for (const auto& [presence, literal] : presences_.all()) {
+    added.insert(presence, literal);
+    made.add(presence, literal, added);
+  }
+  return made;
+}
+
+std::optional<std::vector<PathGraph::Node>> PathClauses::walk() const {
+  Time level = 0;
+  while (level < levels_ && !solver_.is_true(within_[level])) ++level;
+  if (level == levels_) return std::nullopt;
+  const auto next_of = [&](std::span<const PathGraph::Node> nodes) {
+    const auto at = std::ranges::find_if(nodes, [&](PathGraph::Node node) {
+      return graph_.excess(node) <= level && nodes_[node] != 0 && solver_.is_true(nodes_[node]);
+    });
+    GROVE_CHECK(at != nodes.end(), "a model contains a walk");
+    return *at;
+  };
+  std::vector<PathGraph::Node> walk{next_of(graph_.starts())};
+  while (!graph_.is_final(walk.back())) walk.push_back(next_of(graph_.successors(walk.back())));
+  return walk;
+}
+
+void PathClauses::prefer(const std::vector<PathGraph::Node>& walk) {
+  for (const PathGraph::Node node : walk)
+    if (nodes_[node] != 0) solver_.prefer(nodes_[node]);
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Clauses whose models contain a path of an agent.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "cores/path_graph.h"
+#include "cores/sat_solver.h"
+#include "cores/traversal_clauses.h"
+#include "planning/constraint.h"
+
+namespace grove::detail {
+
+// The clauses of one agent's paths, with literals for limits on its cost and for constraints on it.
+// *Contract*: each path of the agent defines an assignment that satisfies all these clauses. In it,
+// within(e) is true if the path costs at most least_cost() + e, and satisfies(c) is true if the
+// path satisfies c. The proof is at the head of path_clauses.cpp. One thread at a time.
+class PathClauses {
+ public:
+  // All arguments must outlive this object.
+  PathClauses(SatSolver& solver, const PathGraph& graph, const Corridors& corridors);
+
+  // Adds the clauses for one more unit of excess, from 0 on, to which the graph has grown.
+  void grow();
+  // Number of calls of grow().
+  Time levels() const { return levels_; }
+  // Literal for "the agent costs at most least_cost() + `excess`"; `excess` may be >= levels().
+  Literal within(Time excess);
+  // Literal for "the path satisfies `constraint`", which must not be on the sequence.
+  Literal satisfies(const Constraint& constraint);
+
+  // A walk of the model that the solver has found; nullopt if the model lets the agent cost more
+  // than the clauses cover.
+  std::optional<std::vector<PathGraph::Node>> walk() const;
+  // Decisions of the solver try this walk first.
+  void prefer(const std::vector<PathGraph::Node>& walk);
+
+ private:
+  struct ConstraintLiteral {
+    Constraint constraint;
+    Literal literal;
+  };
+  using Constraints = std::vector<std::size_t>;  // indices in constraints_
+
+  Literal literal_of(PathGraph::Node node);
+  Literal literal_of(const Presence& presence);
+  void add_walk_clauses(PathGraph::Node node);
+  void restrict_presence(const ConstraintLiteral& by, const Presence& presence);
+  void restrict_move(const ConstraintLiteral& by, const Presence& presence);
+  TraversalClauses& traversals(const Constraint& constraint);
+
+  SatSolver& solver_;
+  const PathGraph& graph_;
+  const Corridors& corridors_;
+  const bool is_node_presence_;  // no two nodes have the same presence
+  Time levels_ = 0;
+  std::vector<Literal> nodes_;   // by node; 0: no literal yet
+  std::vector<Literal> within_;  // by excess
+  PresenceLiterals presences_;
+  std::vector<ConstraintLiteral> constraints_;
+  std::unordered_map<Place, Constraints> constraints_on_;  // by place that they mention
+  Constraints rest_bys_;
+  std::vector<TraversalClauses> traversals_;
+};
+
+}  // namespace grove::detail

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// *Forward pass*, time by time, from the start. An agent on the way waits or moves; when it enters
+// a place, it can also have arrived there for good, and then only turns or executes tasks on the
+// place. Of the arrived agents those in a state of rest are final.
+//
+// *Claim: for each path of cost least_cost + excess or less there is a walk with the same places,
+// the same time of the last arrival, and at most the same cost.* *Proof.* Split the path at its
+// last arrival. Before it, the path is a walk on the way: grow() extends the costs to go until they
+// cover all sequences within the cost, and a path that counts each stop as early as possible passes
+// all stages that matter (mdd.cpp). After it, waits are pointless: without them the agent is on the
+// same place at the same times, forever, does the same tasks, and finishes no later. A node is
+// dropped only if its time plus a lower bound on the remaining cost exceeds the cost.
+//
+// *Backward pass.* Moves lead to later times, so the least cost from each node is computed by
+// descending time.
+#include "cores/path_graph.h"
+
+#include <algorithm>
+
+#include "model/assert.h"
+
+namespace grove::detail {
+namespace {
+
+constexpr std::size_t kNodesPerPoll = 1024;
+
+}  // namespace
+
+std::size_t PathGraph::KeyHash::operator()(const Key& key) const {
+  std::uint64_t hash = static_cast<std::uint32_t>(key.state) * 0x9e3779b97f4a7c15ULL;
+  hash ^= static_cast<std::uint32_t>(key.time) * 0xc2b2ae3d27d4eb4fULL;
+  hash ^= static_cast<std::uint32_t>(key.stage) * 0x165667b19e3779f9ULL;
+  hash ^= static_cast<std::uint32_t>(key.arrival + 1) * 0xd6e8feb86659fd93ULL;
+  return hash ^ hash >> 29;
+}
+
+PathGraph::PathGraph(AgentStops& stops, Time least_cost)
+    : world_(stops.instance().world()), goals_(stops, SequenceClass{}), least_cost_(least_cost) {}
+
+PathGraph::Outcome PathGraph::grow(Time excess, std::size_t max_nodes, const Limits& limits) {
+  latest_ = least_cost_ + excess;
+  CostToGo& cost_to_go = goals_.cost_to_go();
+  if (cost_to_go.outside_bound() <= latest_ && !cost_to_go.extend(latest_, limits))
+    return limits.stop_requested() ? Outcome::kStopped : Outcome::kTooLarge;
+  start();
+  for (std::size_t i = 0; i < queue_.size(); ++i) {
+    if (nodes_.size() > max_nodes) return Outcome::kTooLarge;
+    if (i % kNodesPerPoll == 0 && limits.stop_requested()) return Outcome::kStopped;
+    const auto [node, stage] = queue_[i];
+    nodes_[node].first = static_cast<std::int32_t>(successors_.size());
+    expand(node, stage);
+    nodes_[node].end = static_cast<std::int32_t>(successors_.size());
+  }
+  visited_ += std::ssize(queue_);
+  find_excesses();
+  queue_ = {};
+  return Outcome::kGrown;
+}
+
+void PathGraph::start() {
+  queue_.clear();
+  is_queued_.assign(nodes_.size(), 0);
+  numbers_of_stages_.clear();
+  successors_.clear();
+  const StageId first = goals_.first_stage();
+  GROVE_CHECK(first != SequenceStages::kOutside, "an agent with a path has a first stage");
+  const State state = goals_.stops().start();
+  goals_.on_arrival(first, state, [&](StageId stage) {
+    reach(state, stage, 0, kOnTheWay);
+    reach(state, stage, 0, 0);
+  });
+  starts_ = std::exchange(successors_, {});
+}
+
+void PathGraph::expand(Node node, StageId stage) {
+  const Data from = nodes_[node];  // nodes_ will grow
+  const Time then = from.time + 1;
+  const bool on_the_way = from.arrival == kOnTheWay;
+  if (on_the_way) reach(from.state, stage, then, kOnTheWay);
+  for (const State state : world_.moves(from.state)) {
+    const bool enters = world_.place(state) != world_.place(from.state);
+    if (!on_the_way && enters) continue;
+    goals_.on_arrival(stage, state, [&](StageId next) {
+      reach(state, next, then, from.arrival);
+      if (enters) reach(state, next, then, then);
+    });
+  }
+}
+
+void PathGraph::reach(State state, StageId stage, Time time, Time arrival) {
+  if (!can_finish(state, stage, time, arrival)) return;
+  const auto [at, is_new] = numbers_.try_emplace({state, stage_number(stage), time, arrival}, count());
+  const Node node = at->second;
+  if (is_new) {
+    const bool is_final = arrival != kOnTheWay && goals_.is_rest(goals_.stage(stage), state);
+    nodes_.push_back({.state = state, .time = time, .arrival = arrival, .is_final = is_final});
+    is_queued_.push_back(0);
+  }
+  if (is_queued_[node] == 0) {
+    is_queued_[node] = 1;
+    queue_.emplace_back(node, stage);
+  }
+  successors_.push_back(node);
+}
+
+bool PathGraph::can_finish(State state, StageId stage, Time time, Time arrival) {
+  const Time distance = goals_.distance(stage, state);
+  if (distance > latest_ - time) return false;
+  return arrival == kOnTheWay || distance <= goals_.stops().longest_finish(world_.place(state));
+}
+
+std::int32_t PathGraph::stage_number(StageId stage) {
+  const auto index = static_cast<std::size_t>(stage);
+  if (index >= numbers_of_stages_.size()) numbers_of_stages_.resize(index + 1, -1);
+  std::int32_t& number = numbers_of_stages_[index];
+  if (number < 0) {
+    const SequenceStages::Stage& key = goals_.stage(stage);
+    number = stage_numbers_
+                 .try_emplace({key.left, key.rests}, static_cast<std::int32_t>(stage_numbers_.size()))
+                 .first->second;
+  }
+  return number;
+}
+
+void PathGraph::find_excesses() {
+  for (std::size_t i = queue_.size(); i-- > 0;) {
+    Data& node = nodes_[queue_[i].first];
+    Time excess = node.is_final ? node.time - least_cost_ : kNever;
+    for (const Node next : successors(queue_[i].first))
+      excess = std::min(excess, nodes_[next].excess);
+    GROVE_ASSERT(excess >= 0, "no walk costs less than the least cost");
+    node.excess = excess;
+  }
+}
+
+std::size_t PathGraph::bytes() const {
+  constexpr std::size_t kPerEntry = sizeof(Key) + 40;
+  return nodes_.capacity() * sizeof(Data) + successors_.capacity() * sizeof(Node) +
+         numbers_.size() * kPerEntry;
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Graph of the paths of one agent whose cost exceeds the least cost by a limited amount.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "model/limits.h"
+#include "planning/sequence_stages.h"
+
+namespace grove::detail {
+
+// Layered graph over (state, stage, time), of an agent without constraints. A node is either *on
+// the way*, or *arrived*: the agent has made its last arrival on the place and stays there forever.
+// A walk from a start to a final node is a path; its cost is the time of the final node. Every path
+// without pointless waits (path_graph.cpp) is a walk. The excess of a node is the least cost of a
+// walk through it, minus the least cost of all walks. Grows on demand; node numbers do not change.
+// One thread at a time.
+class PathGraph {
+ public:
+  using Node = std::int32_t;
+  static constexpr Time kOnTheWay = -1;
+
+  enum class Outcome : std::uint8_t {
+    kGrown,
+    kTooLarge,  // more than `max_nodes` nodes, or the costs to go would become too large
+    kStopped,   // a limit was reached
+  };
+
+  // `least_cost`: the agent's least cost. `stops` must outlive this object.
+  PathGraph(AgentStops& stops, Time least_cost);
+
+  // Adds all nodes with excess <= `excess`. If the outcome is not kGrown, the graph must not be
+  // used any more.
+  Outcome grow(Time excess, std::size_t max_nodes, const Limits& limits);
+
+  Time least_cost() const { return least_cost_; }
+  // Number of nodes. Some of them may have an excess above the greatest value for which the graph
+  // was grown, or kNever.
+  Node count() const { return static_cast<Node>(nodes_.size()); }
+  State state(Node node) const { return nodes_[node].state; }
+  Place place(Node node) const { return world_.place(nodes_[node].state); }
+  Time time(Node node) const { return nodes_[node].time; }
+  // The time of the last arrival on the place; kOnTheWay if the agent will leave the place.
+  Time arrival(Node node) const { return nodes_[node].arrival; }
+  Time excess(Node node) const { return nodes_[node].excess; }
+  bool is_final(Node node) const { return nodes_[node].is_final; }
+  // True if no two nodes have the same place, time and arrival.
+  bool has_one_node_per_presence() const {
+    return world_.states_are_places() && goals_.stops().count() == 0;
+  }
+  std::span<const Node> starts() const { return starts_; }
+  std::span<const Node> successors(Node node) const {
+    return {successors_.data() + nodes_[node].first, successors_.data() + nodes_[node].end};
+  }
+
+  // Nodes visited by all calls of grow().
+  std::int64_t visited() const { return visited_; }
+  std::size_t bytes() const;
+
+ private:
+  using StageId = SequenceStages::StageId;
+
+  // Identifies a node over all calls of grow(). Stages are renumbered when the costs to go are
+  // extended, therefore `stage` is a number of stage_numbers_.
+  struct Key {
+    State state;
+    std::int32_t stage;
+    Time time;
+    Time arrival;
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+  struct KeyHash {
+    std::size_t operator()(const Key& key) const;
+  };
+  struct Data {
+    State state;
+    Time time;
+    Time arrival;
+    Time excess = kNever;
+    std::int32_t first = 0;  // range in successors_
+    std::int32_t end = 0;
+    bool is_final = false;
+  };
+
+  void start();
+  void expand(Node node, StageId stage);
+  void reach(State state, StageId stage, Time time, Time arrival);
+  bool can_finish(State state, StageId stage, Time time, Time arrival);
+  std::int32_t stage_number(StageId stage);
+  void find_excesses();
+
+  const World& world_;
+  SequenceStages goals_;
+  const Time least_cost_;
+  std::vector<Data> nodes_;
+  std::vector<Node> starts_;
+  std::vector<Node> successors_;
+  std::unordered_map<Key, Node, KeyHash> numbers_;
+  std::map<std::pair<StopSet, StopSet>, std::int32_t> stage_numbers_;  // by Stage::left and ::rests
+  std::int64_t visited_ = 0;
+  // Of the current call of grow().
+  Time latest_ = 0;
+  std::vector<std::pair<Node, StageId>> queue_;   // in order of time
+  std::vector<std::uint8_t> is_queued_;           // by node
+  std::vector<std::int32_t> numbers_of_stages_;   // by StageId; -1: not known yet
+};
+
+}  // namespace grove::detail
