@@ -185,7 +185,28 @@ CoreSearch::Outcome CoreSearch::solve() {
 SatSolver::Result CoreSearch::solve(std::span<const Soft> assumed, int max_conflicts) {
   std::vector<Literal> literals;
   for (const Soft& soft : assumed) literals.push_back(soft.literal);
+  std::vector<std::uint8_t> is_needed(agents_.size(), 0);
+  for (const AgentIndex agent : agents_of(assumed)) is_needed[agent] = 1;
+  for (std::size_t agent = 0; agent < agents_.size(); ++agent)
+    if (agents_[agent].clauses && is_needed[agent] == 0 && !agents_[agent].is_limited)
+      literals.push_back(-agents_[agent].clauses->active());
   return solver_.solve(literals, max_conflicts);
+}
+
+// The agents on which soft literals depend.
+std::vector<AgentIndex> CoreSearch::agents_of(std::span<const Soft> softs) const {
+  std::vector<AgentIndex> agents;
+  for (const Soft& soft : softs) {
+    if (soft.agent >= 0)
+      agents.push_back(soft.agent);
+    else
+      agents.insert(agents.end(), counts_[soft.totalizer].agents.begin(),
+                    counts_[soft.totalizer].agents.end());
+  }
+  std::ranges::sort(agents);
+  const auto rest = std::ranges::unique(agents);
+  agents.erase(rest.begin(), rest.end());
+  return agents;
 }
 
 std::vector<CoreSearch::Soft> CoreSearch::failed(std::span<const Soft> assumed) const {
@@ -209,7 +230,7 @@ CoreSearch::Outcome CoreSearch::minimize() {
     if (core_.size() > 1) {
       std::vector<Literal> inputs;
       for (const Soft& soft : core_) inputs.push_back(-soft.literal);
-      totalizers_.emplace_back(solver_, inputs);
+      counts_.push_back({Totalizer(solver_, inputs), agents_of(core_)});
     }
     return Outcome::kWorking;
   }
@@ -241,30 +262,32 @@ CoreSearch::Outcome CoreSearch::minimize() {
 // Tests whether more literals of the core are violated.
 CoreSearch::Outcome CoreSearch::exhaust() {
   if (violated_ == core_.size()) return relax();
-  const Literal at_most = -totalizers_.back().at_least(violated_ + 1);
-  if (solver_.solve({&at_most, 1}, kConflictsToExhaust) != SatSolver::Result::kUnsatisfiable)
+  const Soft at_most = count_soft(counts_.size() - 1, violated_);
+  if (solve({&at_most, 1}, kConflictsToExhaust) != SatSolver::Result::kUnsatisfiable)
     return limits_.stop_requested() ? Outcome::kStopped : relax();
-  solver_.add({-at_most});
+  solver_.add({-at_most.literal});
   ++violated_;
   ++lower_bound_;
   return Outcome::kWorking;
 }
 
+// "At most `count` inputs of the totalizer are true".
+CoreSearch::Soft CoreSearch::count_soft(std::size_t index, std::size_t count) {
+  return {.literal = -counts_[index].totalizer.at_least(count + 1),
+          .totalizer = static_cast<std::int32_t>(index),
+          .count = count};
+}
+
 // Replaces the core by further soft literals.
 CoreSearch::Outcome CoreSearch::relax() {
   if (violated_ < core_.size())
-    deferred_.push_back({.literal = -totalizers_.back().at_least(violated_ + 1),
-                         .totalizer = static_cast<std::int32_t>(totalizers_.size()) - 1,
-                         .count = violated_});
+    deferred_.push_back(count_soft(counts_.size() - 1, violated_));
   for (const Soft& soft : core_) {
     if (soft.agent >= 0) {
       if (!raise(soft.agent, soft.excess + 1))
         return limits_.stop_requested() ? Outcome::kStopped : Outcome::kExhausted;
-    } else if (const std::size_t count = soft.count + 1;
-               count < totalizers_[soft.totalizer].input_count()) {
-      deferred_.push_back({.literal = -totalizers_[soft.totalizer].at_least(count + 1),
-                           .totalizer = soft.totalizer,
-                           .count = count});
+    } else if (soft.count + 1 < counts_[soft.totalizer].totalizer.input_count()) {
+      deferred_.push_back(count_soft(soft.totalizer, soft.count + 1));
     }
   }
   core_.clear();
@@ -277,6 +300,7 @@ bool CoreSearch::raise(AgentIndex index, Time excess) {
   Agent& agent = agents_[index];
   if (cutoff_ < kInfiniteCost && excess > cutoff_ - 1 - least_sum_) {
     solver_.add({agent.clauses->within(excess - 1)});
+    agent.is_limited = true;
     return true;
   }
   const std::int64_t visited = agent.graph->visited();
@@ -335,7 +359,8 @@ void CoreSearch::add_split(const Conflict& conflict, const Split& split) {
 PathClauses& CoreSearch::clauses_of(AgentIndex index) {
   Agent& agent = agents_[index];
   if (!agent.clauses) {
-    agent.clauses = std::make_unique<PathClauses>(solver_, *agent.graph, problem_.corridors);
+    agent.clauses = std::make_unique<PathClauses>(solver_, index, *agent.graph,
+                                                  problem_.corridors, place_conflicts_);
     agent.clauses->grow();
     agent.clauses->prefer(agent.walk);
     active_.push_back({.literal = agent.clauses->within(0), .agent = index, .excess = 0});

@@ -75,6 +75,7 @@ class CoreSearch {
     std::unique_ptr<PathClauses> clauses = nullptr;  // nullptr until a conflict needs them
     std::vector<PathGraph::Node> walk = {};
     bool has_path = true;  // false: the model says nothing about it
+    bool is_limited = false;  // a hard clause limits its cost
   };
 
   Outcome set_up();
@@ -83,7 +84,14 @@ class CoreSearch {
   Outcome exhaust();
   Outcome relax();
 
+  struct Count {
+    Totalizer totalizer;
+    std::vector<AgentIndex> agents;  // on which its inputs depend
+  };
+
   SatSolver::Result solve(std::span<const Soft> assumed, int max_conflicts);
+  std::vector<AgentIndex> agents_of(std::span<const Soft> softs) const;
+  Soft count_soft(std::size_t index, std::size_t count);
   std::vector<Soft> failed(std::span<const Soft> assumed) const;
   std::vector<PathGraph::Node> walk_with_fewest_conflicts(const PathGraph& graph) const;
   void read_walks();
@@ -104,8 +112,9 @@ class CoreSearch {
   ConflictFinder finder_;
   ConflictAvoidanceTable first_paths_;
   SatSolver solver_;
+  PlaceConflicts place_conflicts_{solver_};
   std::vector<Agent> agents_;
-  std::deque<Totalizer> totalizers_;
+  std::deque<Count> counts_;
   std::vector<Soft> active_;    // assumed
   std::vector<Soft> deferred_;  // from relaxed cores; assumed after the next model
   std::vector<Soft> core_;

@@ -30,11 +30,15 @@
 
 namespace grove::detail {
 
-PathClauses::PathClauses(SatSolver& solver, const PathGraph& graph, const Corridors& corridors)
+PathClauses::PathClauses(SatSolver& solver, AgentIndex agent, const PathGraph& graph,
+                         const Corridors& corridors, PlaceConflicts& conflicts)
     : solver_(solver),
+      agent_(agent),
       graph_(graph),
       corridors_(corridors),
-      is_node_presence_(graph.has_one_node_per_presence()) {}
+      conflicts_(conflicts),
+      is_node_presence_(graph.has_one_node_per_presence()),
+      active_(solver.new_variable()) {}
 
 void PathClauses::grow() {
   const Time level = levels_++;
@@ -73,18 +77,21 @@ Literal PathClauses::literal_of(PathGraph::Node node) {
   const Time arrival = graph_.arrival(node);
   const bool is_last = arrival != PathGraph::kOnTheWay;
   const Presence presence{graph_.place(node), graph_.time(node), is_last};
-  if (is_last && arrival < graph_.time(node)) return known = solver_.new_variable();
-  if (is_node_presence_) return known = literal_of(presence);
-  const Literal literal = solver_.new_variable();
-  known = literal;
-  solver_.add({-literal, literal_of(presence)});
-  return literal;
+  if (is_node_presence_) {
+    known = literal_of(presence);
+  } else {
+    known = solver_.new_variable();
+    if (!is_last || arrival == graph_.time(node)) solver_.add({-known, literal_of(presence)});
+  }
+  solver_.add({-known, active_});
+  return known;
 }
 
 Literal PathClauses::literal_of(const Presence& presence) {
   if (const Literal known = presences_.find(presence)) return known;
   const Literal literal = solver_.new_variable();
   presences_.insert(presence, literal);
+  conflicts_.add(agent_, presence, literal);
   for (TraversalClauses& traversals : traversals_) traversals.add(presence, literal, presences_);
   if (const auto on = constraints_on_.find(presence.place); on != constraints_on_.end())
     for (const std::size_t index : on->second) restrict_presence(constraints_[index], presence);

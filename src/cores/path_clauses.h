@@ -12,6 +12,7 @@
 #include "cores/path_graph.h"
 #include "cores/sat_solver.h"
 #include "cores/traversal_clauses.h"
+#include "cores/place_conflicts.h"
 #include "planning/constraint.h"
 
 namespace grove::detail {
@@ -23,7 +24,8 @@ namespace grove::detail {
 class PathClauses {
  public:
   // All arguments must outlive this object.
-  PathClauses(SatSolver& solver, const PathGraph& graph, const Corridors& corridors);
+  PathClauses(SatSolver& solver, AgentIndex agent, const PathGraph& graph,
+              const Corridors& corridors, PlaceConflicts& conflicts);
 
   // Adds the clauses for one more unit of excess, from 0 on, to which the graph has grown.
   void grow();
@@ -31,6 +33,9 @@ class PathClauses {
   Time levels() const { return levels_; }
   // Literal for "the agent costs at most least_cost() + `excess`"; `excess` may be >= levels().
   Literal within(Time excess);
+  // Literal that is true if the model contains any node. Every model can be changed to one in which
+  // it is false, together with within(e) for all e, unless other clauses require within(e).
+  Literal active() const { return active_; }
   // Literal for "the path satisfies `constraint`", which must not be on the sequence.
   Literal satisfies(const Constraint& constraint);
 
@@ -55,9 +60,12 @@ class PathClauses {
   TraversalClauses& traversals(const Constraint& constraint);
 
   SatSolver& solver_;
+  const AgentIndex agent_;
   const PathGraph& graph_;
   const Corridors& corridors_;
+  PlaceConflicts& conflicts_;
   const bool is_node_presence_;  // no two nodes have the same presence
+  const Literal active_;
   Time levels_ = 0;
   std::vector<Literal> nodes_;   // by node; 0: no literal yet
   std::vector<Literal> within_;  // by excess

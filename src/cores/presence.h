@@ -18,6 +18,12 @@ struct Presence {
   Place place;
   Time time;
   bool is_last;
+
+  // Different presences have different keys.
+  std::uint64_t key() const {
+    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(place)) << 32 |
+           static_cast<std::uint64_t>(time) << 1 | (is_last ? 1 : 0);
+  }
 };
 
 // The literals of one agent's presences.
@@ -25,11 +31,11 @@ class PresenceLiterals {
  public:
   // Returns 0 if the presence has no literal.
   Literal find(const Presence& presence) const {
-    const auto at = literals_.find(key(presence));
+    const auto at = literals_.find(presence.key());
     return at == literals_.end() ? 0 : at->second;
   }
   void insert(const Presence& presence, Literal literal) {
-    literals_.emplace(key(presence), literal);
+    literals_.emplace(presence.key(), literal);
     list_.emplace_back(presence, literal);
   }
   // In order of insertion.
@@ -42,11 +48,6 @@ class PresenceLiterals {
   }
 
  private:
-  static std::uint64_t key(const Presence& p) {
-    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(p.place)) << 32 |
-           static_cast<std::uint64_t>(p.time) << 1 | (p.is_last ? 1 : 0);
-  }
-
   std::unordered_map<std::uint64_t, Literal> literals_;
   std::vector<std::pair<Presence, Literal>> list_;
 };

@@ -2,6 +2,7 @@
 #include "cores/sat_solver.h"
 
 #include <cadical.hpp>
+#include <cstdlib>
 
 #include "model/assert.h"
 #include "model/effort.h"
@@ -38,6 +39,7 @@ class SatSolver::Solver {
  public:
   explicit Solver(const Limits& limits) : watcher(limits) {
     solver.set("quiet", 1);
+    solver.set("elim", 0);  // later clauses would bring eliminated variables back
     solver.connect_terminator(&watcher);
     solver.connect_learner(&watcher);
   }
@@ -70,6 +72,7 @@ void SatSolver::add(std::span<const Literal> clause) {
 SatSolver::Result SatSolver::solve(std::span<const Literal> assumptions, int max_conflicts) {
   CaDiCaL::Solver& solver = solver_->solver;
   for (const Literal literal : assumptions) solver.assume(literal);
+  solves_work_ += variables_ / effort::kSolverVariables;
   solver.limit("conflicts", max_conflicts);
   switch (solver.solve()) {
     case 10:
@@ -98,7 +101,7 @@ std::int64_t SatSolver::conflicts() const {
 }
 
 std::int64_t SatSolver::work() const {
-  return solver_->watcher.rounds * effort::kPerSolverRound +
+  return solves_work_ + solver_->watcher.rounds * effort::kPerSolverRound +
          solver_->watcher.conflicts * effort::kPerSolverConflict +
          literals_ / effort::kClauseLiterals;
 }

@@ -50,6 +50,7 @@ class SatSolver {
   std::unique_ptr<Solver> solver_;
   std::int64_t variables_ = 0;
   std::int64_t literals_ = 0;  // in added clauses
+  std::int64_t solves_work_ = 0;
 };
 
 }  // namespace grove::detail

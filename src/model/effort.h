@@ -22,9 +22,12 @@ inline constexpr std::int64_t kMoveTuples = 20;    // joint moves tried for a pa
 inline constexpr std::int64_t kPricedLabels = 2;   // labels of a search under multipliers
 inline constexpr std::int64_t kCountedSteps = 32;  // path steps counted between pricing rounds
 
-inline constexpr std::int64_t kPerSolverRound = 1;      // of the main loop of the SAT solver
-inline constexpr std::int64_t kPerSolverConflict = 200;
-inline constexpr std::int64_t kClauseLiterals = 4;      // added to the SAT solver
+inline constexpr std::int64_t kClauseLiterals = 4;     // literals of clauses added to a SAT solver
+inline constexpr std::int64_t kSolverVariables = 4;    // variables of a SAT solver, at each call
+
+// Effort of the SAT solver besides that.
+inline constexpr std::int64_t kPerSolverRound = 2;     // of its main loop
+inline constexpr std::int64_t kPerSolverConflict = 500;
 
 // Rates that estimate the duration of an expansion: labels and calls as above, and the other
 // operations in ExpansionCounts. Fitted by regression to the processor time of single expansions.

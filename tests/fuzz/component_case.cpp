@@ -115,6 +115,11 @@ void choose_techniques(Part part, SolveOptions& options, Random& random) {
       tuning.lagrangian_max_share = kAtOnce;
       tuning.lagrangian_level = 0.3;
       return;
+    case Part::kCores:
+      options.techniques = of_tree(random).with(Technique::kCores);
+      tuning.cores_start_work = 0;
+      tuning.cores_max_share = kAtOnce;
+      return;
     case Part::kSequences:
       options.policy = Policy::kFixed;
       options.rtsp = random.pick<RtspBackend>(

@@ -17,6 +17,7 @@ enum class Part : std::uint8_t {
   kGroups,    // kPairs, and EPEA* for pairs and groups, from the start
   kJoint,     // EPEA* for all agents
   kPrices,    // the Lagrangian bound at the root; the caller interrupts the tree search
+  kCores,     // unsatisfiable cores
   kSequences  // one tree for each joint sequence
 };
 
@@ -31,6 +32,7 @@ inline constexpr std::array kParts = {
     NamedPart{Part::kGroups, "groups"},
     NamedPart{Part::kJoint, "joint"},
     NamedPart{Part::kPrices, "prices"},
+    NamedPart{Part::kCores, "cores"},
     NamedPart{Part::kSequences, "sequences"},
 };
 

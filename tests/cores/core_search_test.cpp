@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "cores/core_search.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "model/check.h"
+#include "model/omega.h"
+#include "tests/fuzz/random_instance.h"
+#include "tests/oracle/joint_oracle.h"
+#include "tests/support/fuzz_factor.h"
+
+namespace grove::detail {
+namespace core_search_test {
+
+constexpr std::size_t kMaxBytes = std::size_t{1} << 28;
+using Outcome = CoreSearch::Outcome;
+
+fuzz::TinyInstance tiny_instance(std::uint64_t seed) {
+  return seed % 2 == 0 ? fuzz::random_instance(seed) : fuzz::random_world(seed);
+}
+
+// A core-guided search with everything that it needs.
+class Search {
+ public:
+  Search(const Instance& instance, Techniques techniques)
+      : problem_(instance, limits_),
+        stops_(instance, problem_.distances),
+        search_(problem_, stops_, techniques, kMaxBytes, limits_) {}
+
+  // Runs for at most `steps` steps. `check` is called after each.
+  template <class Check>
+  Outcome run(Cost cutoff, int steps, Check check) {
+    Outcome outcome = Outcome::kWorking;
+    while (outcome == Outcome::kWorking && steps-- > 0) {
+      outcome = search_.step(cutoff);
+      check(search_);
+    }
+    return outcome;
+  }
+  Outcome run(Cost cutoff, int steps) {
+    return run(cutoff, steps, [](const CoreSearch&) {});
+  }
+  const CoreSearch& operator*() const { return search_; }
+  const CoreSearch* operator->() const { return &search_; }
+
+ private:
+  const Limits limits_;
+  const Problem problem_;
+  const AgentStopsCache stops_;
+  CoreSearch search_;
+};
+
+Techniques some_splits(std::uint64_t seed) {
+  Techniques techniques;
+  if (seed % 3 != 0) techniques = techniques.with(Technique::kTarget);
+  if (seed % 4 != 0) techniques = techniques.with(Technique::kCorridor);
+  return techniques;
+}
+
+// The bound rises to the oracle's optimum and never exceeds it, on grids and roadmaps, with turning
+// agents, tasks of any duration and any order, and without following.
+TEST(CoreSearch, AgreesWithTheOracle) {
+  int solved = 0, infeasible = 0, with_cores = 0;
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(300));
+       ++seed) {
+    SCOPED_TRACE(seed);
+    Instance instance = tiny_instance(seed).build();
+    if (seed % 5 == 0) instance = instance.without_following();
+    const oracle::Answer truth = oracle::solve_jointly(instance);
+    if (truth.verdict == oracle::Verdict::kTooLarge) continue;
+    const Cost optimum = truth.plan ? truth.plan->cost : kInfiniteCost;
+    Search search(instance, some_splits(seed));
+    const Outcome outcome =
+        search.run(kInfiniteCost, truth.plan ? 1'000'000 : 300,
+                   [&](const CoreSearch& so_far) { ASSERT_LE(so_far.lower_bound(), optimum); });
+    if (search->cores() > 0) ++with_cores;
+    if (!truth.plan) {
+      ASSERT_FALSE(search->plan());
+      ++infeasible;
+      continue;
+    }
+    ++solved;
+    ASSERT_EQ(outcome, Outcome::kSolved);
+    ASSERT_EQ(search->lower_bound(), optimum);
+    ASSERT_TRUE(search->plan());
+    Solution solution;
+    solution.status = Status::kOptimal;
+    solution.plan = search->plan();
+    solution.lower_bound = optimum;
+    solution.may_follow = instance.may_follow();
+    ASSERT_TRUE(check(instance, solution).empty());
+  }
+  EXPECT_GT(solved, 100);
+  EXPECT_GT(infeasible, 5);
+  EXPECT_GT(with_cores, 30);
+}
+
+// With a cutoff equal to the optimum the search proves that no plan costs less; with a cutoff of
+// optimum + 1 it finds the optimum.
+TEST(CoreSearch, ProvesTheCutoff) {
+  int proven = 0;
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(150));
+       ++seed) {
+    SCOPED_TRACE(seed);
+    const Instance instance = tiny_instance(seed).build();
+    const oracle::Answer truth = oracle::solve_jointly(instance);
+    if (!truth.plan) continue;
+    const Cost optimum = truth.plan->cost;
+    Search at(instance, some_splits(seed));
+    EXPECT_EQ(at.run(optimum, 1'000'000), Outcome::kSolved);
+    EXPECT_FALSE(at->plan());
+    EXPECT_EQ(at->lower_bound(), optimum);
+    Search above(instance, some_splits(seed));
+    EXPECT_EQ(above.run(optimum + 1, 1'000'000), Outcome::kSolved);
+    ASSERT_TRUE(above->plan());
+    EXPECT_EQ(above->plan()->cost, optimum);
+    ++proven;
+  }
+  EXPECT_GT(proven, 50);
+}
+
+// The cutoff falls during the search, from far above the optimum to the optimum.
+TEST(CoreSearch, AcceptsAFallingCutoff) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(100));
+       ++seed) {
+    SCOPED_TRACE(seed);
+    const Instance instance = tiny_instance(seed).build();
+    const oracle::Answer truth = oracle::solve_jointly(instance);
+    if (!truth.plan) continue;
+    const Cost optimum = truth.plan->cost;
+    Search search(instance, some_splits(seed));
+    Cost cutoff = optimum + 6;
+    Outcome outcome = Outcome::kWorking;
+    while (outcome == Outcome::kWorking) {
+      outcome = search.run(cutoff, 3);
+      ASSERT_LE(search->lower_bound(), optimum);
+      cutoff = std::max(optimum, cutoff - 1);
+    }
+    EXPECT_EQ(outcome, Outcome::kSolved);
+    EXPECT_EQ(search->lower_bound(), optimum);
+  }
+}
+
+TEST(CoreSearch, StopsAtItsMemoryLimit) {
+  const Instance instance = fuzz::random_instance(4).build();
+  const Limits limits;
+  const Problem problem(instance, limits);
+  const AgentStopsCache stops(instance, problem.distances);
+  CoreSearch search(problem, stops, Techniques::defaults(), 1, limits);
+  Outcome outcome = Outcome::kWorking;
+  while (outcome == Outcome::kWorking) outcome = search.step(kInfiniteCost);
+  EXPECT_EQ(outcome, Outcome::kExhausted);
+  EXPECT_FALSE(search.plan());
+}
+
+}  // namespace core_search_test
+}  // namespace grove::detail
