@@ -22,6 +22,14 @@ pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 if(GROVE_BUILD_TOOLS)
   pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 endif()
+if(GROVE_WITH_CADICAL)
+  # Debian has only the static library, of position-independent code.
+  find_path(CADICAL_INCLUDE_DIR cadical.hpp REQUIRED)
+  find_library(CADICAL_LIBRARY cadical REQUIRED)
+  add_library(cadical::cadical UNKNOWN IMPORTED)
+  set_target_properties(cadical::cadical PROPERTIES
+    IMPORTED_LOCATION ${CADICAL_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${CADICAL_INCLUDE_DIR})
+endif()
 if(GROVE_WITH_CBC)
   pkg_check_modules(CBC REQUIRED IMPORTED_TARGET cbc)
   # Programs link the static archives of CBC and its dependencies if they exist, because resolving the symbols of six

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: MIT
 # The installed library, which contains the public API and the layers that it needs in one file, shared or static.
 set(grove_library_layers model execution io sequencing planning joint lagrangian conflicts search primal baselines engine api)
+if(GROVE_WITH_CADICAL)
+  list(APPEND grove_library_layers cores)
+endif()
 list(TRANSFORM grove_library_layers PREPEND grove_)
 
 # Sets properties of all library targets. Before version 1.0 a minor version may break the ABI, so the SONAME contains
@@ -40,6 +43,9 @@ add_library(grove::grove_static ALIAS grove_static)
 grove_library(grove_static grove)
 # Programs link the dependencies of the static library by name, because they are in the linker's search path.
 set(grove_needs fmt z yaml-cpp pugixml pthread)
+if(GROVE_WITH_CADICAL)
+  list(APPEND grove_needs cadical)
+endif()
 if(GROVE_WITH_CBC)
   list(APPEND grove_needs Cbc Cgl OsiClp ClpSolver Clp Osi CoinUtils)
 endif()

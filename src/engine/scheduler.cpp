@@ -20,6 +20,7 @@
 // | preparation | primal | never due                 |                          |       |        |
 // | lagrangian  | bound  | lagrangian_start_work [b] | lagrangian_max_share [c] | 0     | wanted |
 // | joint       | bound  | joint_start_work          | joint_max_share          | 0     | wanted |
+// | cores       | bound  | cores_start_work          | cores_max_share          | 0     | wanted |
 //
 // The formulas of each component are at the head of its file in engine/components.
 // [a] With a plan, where x = (effort at the component's last gain) / (its effort so far).

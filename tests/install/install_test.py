@@ -269,7 +269,7 @@ class Installed(unittest.TestCase):
             self.skipTest("takes some minutes: --long")
         folder = self.project("inside", "add_subdirectory(grove)", "grove::grove")
         (folder / "grove").symlink_to(SOURCE)
-        self.solves(folder, "-DGROVE_WITH_MPI=OFF", "-DGROVE_WITH_CBC=OFF")
+        self.solves(folder, "-DGROVE_WITH_MPI=OFF", "-DGROVE_WITH_CBC=OFF", "-DGROVE_WITH_CADICAL=OFF")
         self.assertNotRegex(run("ldd", folder / "build/stranger"), "Cbc|mpi")
 
 

@@ -30,6 +30,8 @@ PACKAGES = {
     "libzstd": ["libzstd-dev"],
     "zstd": ["libzstd-dev"],
     "cpp-httplib": ["libcpp-httplib-dev"],
+    "cadical.hpp": ["libcadical-dev"],
+    "cadical": ["libcadical-dev"],
     "cbc": ["coinor-libcbc-dev"],
     "cairo": ["libcairo2-dev"],
     "GIF": ["libgif-dev"],

@@ -11,13 +11,13 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 # Lowest layer first. Each layer may use only the layers before it.
-LAYERS = ["model", "execution", "io", "sequencing", "planning", "joint", "lagrangian", "conflicts", "search", "proof",
-          "primal", "baselines",
+LAYERS = ["model", "execution", "io", "sequencing", "planning", "joint", "lagrangian", "conflicts", "search", "cores",
+          "proof", "primal", "baselines",
           "engine", "batch", "api", "mpi", "tools"]
 CODE_FOLDERS = ["include", "src", "mpi", "cluster", "examples", "python", "tools", "tests", "benchmarks"]
 CPP = {".h", ".hpp", ".cpp"}
 FORBIDDEN_IN_LIBRARIES = {
-    "ends the process": r"(?<![.>\w])(?:exit|_exit|_Exit|quick_exit|abort|terminate)\s*\(",
+    "ends the process": r"(?<![.>\w])(?:exit|_exit|_Exit|quick_exit|abort|terminate)\s*\((?!\) override)",
     "prints": r"\bstd::(?:cout|cerr|clog)\b|\b(?:printf|puts|putchar)\s*\(|\bstd(?:out|err)\b"
               r"|\bfmt::print(?:ln)?\s*\(\s*\"",
     "is unfinished": r"\b(?:TODO|FIXME|XXX)\b",

@@ -12,9 +12,10 @@
 #include <atomic>
 #include <cstddef>
 
-#include "cores/core_search.h"
 #include "engine/components.h"
 #include "model/assert.h"
+#ifdef GROVE_WITH_CADICAL
+#include "cores/core_search.h"
 
 namespace grove::detail {
 namespace {
@@ -134,3 +135,12 @@ std::unique_ptr<Component> make_cores_component(const ComponentContext& context)
 }
 
 }  // namespace grove::detail
+#else
+namespace grove::detail {
+
+std::unique_ptr<Component> make_cores_component(const ComponentContext&) {
+  return nullptr;
+}
+
+}  // namespace grove::detail
+#endif
