@@ -3,6 +3,7 @@
 // the agent; for each limit on its cost; and for each constraint. All clauses are implications:
 //
 //   node and within(e)         -> one of its successors with excess <= e   (e >= its excess)
+//   node                       -> one of its successors, once the graph has all of them
 //   within(e)                  -> one of the starts with excess <= e
 //   within(e)                  -> within(e + 1)
 //   node                       -> its presence
@@ -44,6 +45,7 @@ void PathClauses::grow() {
   const Time level = levels_++;
   const Literal limit = within(level);
   nodes_.resize(graph_.count(), 0);
+  has_all_successors_.resize(graph_.count(), 0);
   std::vector<Literal> clause{-limit};
   for (const PathGraph::Node node : graph_.starts())
     if (graph_.excess(node) <= level) clause.push_back(literal_of(node));
@@ -52,14 +54,18 @@ void PathClauses::grow() {
     if (graph_.excess(node) <= level) add_walk_clauses(node);
 }
 
-// A final node needs no successor.
+// A final node needs no successor. Once a node has all its successors, one clause covers all levels.
 void PathClauses::add_walk_clauses(PathGraph::Node node) {
-  if (graph_.is_final(node)) return;
+  if (graph_.is_final(node) || has_all_successors_[node] != 0) return;
   const Time level = levels_ - 1;
-  std::vector<Literal> clause{-within(level), -literal_of(node)};
+  std::vector<Literal> clause{-literal_of(node)};
   for (const PathGraph::Node next : graph_.successors(node))
     if (graph_.excess(next) <= level) clause.push_back(literal_of(next));
-  GROVE_ASSERT(clause.size() > 2, "a node within the level has a successor within the level");
+  GROVE_ASSERT(clause.size() > 1, "a node within the level has a successor within the level");
+  if (graph_.has_all_successors(node))
+    has_all_successors_[node] = 1;
+  else
+    clause.push_back(-within(level));
   solver_.add(clause);
 }
 

@@ -68,6 +68,7 @@ class PathClauses {
   const Literal active_;
   Time levels_ = 0;
   std::vector<Literal> nodes_;   // by node; 0: no literal yet
+  std::vector<std::uint8_t> has_all_successors_;  // by node: in a clause for all levels
   std::vector<Literal> within_;  // by excess
   PresenceLiterals presences_;
   std::vector<ConstraintLiteral> constraints_;

@@ -11,6 +11,10 @@
 // same place at the same times, forever, does the same tasks, and finishes no later. A node is
 // dropped only if its time plus a lower bound on the remaining cost exceeds the cost.
 //
+// *All successors.* The costs to go cover all routes of cost latest_ or less, so a distance with time +
+// distance <= latest_ is exact. A node has all its successors if no move from it was dropped because
+// of its cost; an arrival is dropped for good where the agent cannot finish without leaving again.
+//
 // *Backward pass.* Moves lead to later times, so the least cost from each node is computed by
 // descending time.
 #include "cores/path_graph.h"
@@ -76,20 +80,28 @@ void PathGraph::expand(Node node, StageId stage) {
   const Data from = nodes_[node];  // nodes_ will grow
   const Time then = from.time + 1;
   const bool on_the_way = from.arrival == kOnTheWay;
-  if (on_the_way) reach(from.state, stage, then, kOnTheWay);
+  bool all = true;
+  if (on_the_way) all = reach(from.state, stage, then, kOnTheWay);
   for (const State state : world_.moves(from.state)) {
     const bool enters = world_.place(state) != world_.place(from.state);
     if (!on_the_way && enters) continue;
-    goals_.on_arrival(stage, state, [&](StageId next) {
-      reach(state, next, then, from.arrival);
-      if (enters) reach(state, next, then, then);
+    const bool known = goals_.on_arrival(stage, state, [&](StageId next) {
+      all &= reach(state, next, then, from.arrival);
+      if (enters) all &= reach(state, next, then, then);
     });
+    all &= known;
   }
+  nodes_[node].has_all_successors = all;
 }
 
-void PathGraph::reach(State state, StageId stage, Time time, Time arrival) {
-  if (!can_finish(state, stage, time, arrival)) return;
-  const auto [at, is_new] = numbers_.try_emplace({state, stage_number(stage), time, arrival}, count());
+bool PathGraph::reach(State state, StageId stage, Time time, Time arrival) {
+  const Time distance = goals_.distance(stage, state);
+  if (distance > latest_ - time) return false;
+  // From here on the distance is exact, so later calls come to the same result.
+  if (arrival != kOnTheWay && distance > goals_.stops().longest_finish(world_.place(state)))
+    return true;
+  const auto [at, is_new] =
+      numbers_.try_emplace({state, stage_number(stage), time, arrival}, count());
   const Node node = at->second;
   if (is_new) {
     const bool is_final = arrival != kOnTheWay && goals_.is_rest(goals_.stage(stage), state);
@@ -101,12 +113,7 @@ void PathGraph::reach(State state, StageId stage, Time time, Time arrival) {
     queue_.emplace_back(node, stage);
   }
   successors_.push_back(node);
-}
-
-bool PathGraph::can_finish(State state, StageId stage, Time time, Time arrival) {
-  const Time distance = goals_.distance(stage, state);
-  if (distance > latest_ - time) return false;
-  return arrival == kOnTheWay || distance <= goals_.stops().longest_finish(world_.place(state));
+  return true;
 }
 
 std::int32_t PathGraph::stage_number(StageId stage) {
@@ -130,6 +137,9 @@ void PathGraph::find_excesses() {
       excess = std::min(excess, nodes_[next].excess);
     GROVE_ASSERT(excess >= 0, "no walk costs less than the least cost");
     node.excess = excess;
+    node.has_all_successors &=
+        std::ranges::all_of(successors(queue_[i].first),
+                            [&](Node next) { return nodes_[next].excess <= latest_ - least_cost_; });
   }
 }
 

@@ -59,6 +59,10 @@ class PathGraph {
     return {successors_.data() + nodes_[node].first, successors_.data() + nodes_[node].end};
   }
 
+  // True if every walk through the node continues with one of successors(), whatever its cost, and
+  // all of these have an excess of at most the greatest value for which the graph was grown.
+  bool has_all_successors(Node node) const { return nodes_[node].has_all_successors; }
+
   // Nodes visited by all calls of grow().
   std::int64_t visited() const { return visited_; }
   std::size_t bytes() const;
@@ -86,12 +90,13 @@ class PathGraph {
     std::int32_t first = 0;  // range in successors_
     std::int32_t end = 0;
     bool is_final = false;
+    bool has_all_successors = false;
   };
 
   void start();
   void expand(Node node, StageId stage);
-  void reach(State state, StageId stage, Time time, Time arrival);
-  bool can_finish(State state, StageId stage, Time time, Time arrival);
+  // Returns false if the node might be added by a later call of grow().
+  bool reach(State state, StageId stage, Time time, Time arrival);
   std::int32_t stage_number(StageId stage);
   void find_excesses();
 
