@@ -38,12 +38,12 @@ def members(pairs):
 
 def read_instance(path):
     """Returns (neighbours of each place, starts, goals, checksum)."""
-    instance = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=members)
+    instance = json.loads(path.read_text(encoding="utf-8-sig"), object_pairs_hook=members)
     agents = instance.get("agents", [])
     # Refuses other keys, because they could change the problem, and the bound would be that of a different problem.
     expect(instance.keys() == {"map", "agents", "tasks"} and agents and not instance["tasks"] and
            all(agent.keys() == {"id", "start", "goal"} for agent in agents), "expected classical MAPF")
-    rows = (path.parent / instance["map"]).read_text(encoding="utf-8").split("\n")[4:]
+    rows = (path.parent / instance["map"]).read_text(encoding="utf-8-sig").split("\n")[4:]
     rows = [["." if letter in ".GSE" else "@" for letter in row.strip()] for row in rows if row.strip()]
     height, width = len(rows), len(rows[0])
     places = {y * width + x for y in range(height) for x in range(width) if rows[y][x] == "."}

@@ -65,6 +65,10 @@ Solution public_solution(const detail::Instance& instance, const detail::Solutio
 // Converts Options::omega. Throws InvalidArgument if it is neither from 0 to 1e6 nor infinite.
 detail::Omega omega_of(double omega);
 
+// Converts a JSON Pointer into an instance file to one into the public types: the key "cell" of a
+// task is the member `place`.
+std::string public_field(std::string field);
+
 // Returns the result of `function`. Translates exceptions of `function` into those of the public
 // API.
 template <class Function>
@@ -76,7 +80,7 @@ auto with_public_exceptions(Function&& function) {
   } catch (const detail::InputError& error) {
     throw InputError(error.what());
   } catch (const detail::InstanceError& error) {
-    throw InvalidArgument("/" + error.field(), error.what());
+    throw InvalidArgument(public_field("/" + error.field()), error.what());
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {

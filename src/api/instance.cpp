@@ -37,7 +37,8 @@ void added(const std::string& field, Add&& add) {
   try {
     add();
   } catch (const detail::InstanceError& error) {
-    throw InvalidArgument(field + (error.field().empty() ? "" : "/" + error.field()), error.what());
+    throw InvalidArgument(public_field(field + (error.field().empty() ? "" : "/" + error.field())),
+                          error.what());
   }
 }
 
@@ -93,6 +94,12 @@ Instance loaded(detail::LoadedInstance read, std::vector<std::string>* warnings)
 }
 
 }  // namespace
+
+std::string public_field(std::string field) {
+  constexpr std::string_view kCell = "/cell";
+  if (field.ends_with(kCell)) field.replace(field.size() - kCell.size(), kCell.size(), "/place");
+  return field;
+}
 
 Instance Access::to_public(detail::Instance instance) {
   std::vector<Agent> agents;

@@ -211,9 +211,8 @@ bool is_within_omega(const Solution& solution) {
   return solution.status == Status::kOptimal || solution.status == Status::kBounded;
 }
 
-// Merges the results of two searches. The end of the second search is reported as the end of the
-// run, with one exception: if the second search proved only that its chosen destinations admit no
-// plan, the limit that stopped the first search is reported.
+}  // namespace
+
 Solution merged_result(const Solution& first, Solution second) {
   if (second.status == Status::kInfeasible) return second;
   auto& texts = second.stats.texts;
@@ -224,12 +223,11 @@ Solution merged_result(const Solution& first, Solution second) {
   second.lower_bound = std::max(first.lower_bound, second.lower_bound);
   const auto cost = second.plan ? std::optional(second.plan->cost) : std::nullopt;
   second.status = status_of(cost, second.lower_bound, second.omega);
-  if (is_within_omega(second)) texts.erase("remark");
+  if (is_within_omega(second))
+    for (const char* key : {"remark", "stopped_by"}) texts.erase(key);
   for (const auto& [name, count] : first.stats.counts) second.stats.counts[name] += count;
   return second;
 }
-
-}  // namespace
 
 Solution solve_with_destinations(const Instance& instance, const SolveOptions& options,
                                  const Limits& limits, RunObserver& observer) {

@@ -24,4 +24,10 @@ Solution solve_with_destinations_last(const Instance& instance, const SolveOptio
 Solution solve_with_destinations_first(const Instance& instance, const SolveOptions& options,
                                        const Limits& limits, RunObserver& observer);
 
+// Merges the results of two searches, for CTS-CBS-C. The end of the second search is reported as
+// the end of the run, with two exceptions: if both results together are within omega, no limit is
+// reported; and if the second search proved only that its chosen destinations admit no plan, the
+// limit that stopped the first search is reported.
+Solution merged_result(const Solution& first, Solution second);
+
 }  // namespace grove::detail

@@ -217,7 +217,7 @@ std::string what_was_meant(const JsonValue& object, const std::string& key,
   };
   const KnownKey* meant = key_meant(object, key, known);
   if (const Unmodelled* found = unmodelled(key)) return not_modelled(*found);
-  if (meant && meant->name == key + "s") return hint(*meant);  // "task" for "tasks"
+  if (meant && singular(key) == singular(meant->name)) return hint(*meant);
   if (const KnownObject* found = owner(key, file))
     return fmt::format("this key belongs to {}; expected it there", found->name);
   if (meant) return hint(*meant);

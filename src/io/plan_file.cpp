@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 
@@ -117,7 +118,7 @@ class PlanReader {
         agents_(index_by_id(instance.agents())),
         tasks_(index_by_id(instance.tasks())) {}
 
-  Plan read(const JsonValue& root) const {
+  Plan read(const JsonValue& root, AgentOrder& order) const {
     Plan plan;
     plan.cost = root.member("cost").integer(0, kLargestCost);
     plan.agents.resize(instance_.agent_count());
@@ -128,6 +129,7 @@ class PlanReader {
       const AgentIndex index = find_id(agents_, id, "agent");
       if (seen[index]) id.fail(fmt::format("agent '{}' appears twice", id.text()));
       seen[index] = true;
+      order.push_back(index);
       plan.agents[index] = read_agent(index, agents.element(i));
     }
     return plan;
@@ -224,11 +226,13 @@ void write_solution(const std::filesystem::path& path, const Instance& instance,
   write_file_atomically(path, solution_text(instance, solution), durability);
 }
 
-Solution read_solution(const std::filesystem::path& path, const Instance& instance) {
-  return parse_solution(read_text(path), path.string(), instance);
+Solution read_solution(const std::filesystem::path& path, const Instance& instance,
+                       AgentOrder* order) {
+  return parse_solution(read_text(path), path.string(), instance, order);
 }
 
-Solution parse_solution(std::string_view text, const std::string& name, const Instance& instance) {
+Solution parse_solution(std::string_view text, const std::string& name, const Instance& instance,
+                        AgentOrder* order) {
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
   require_known_keys(root, plan_keys());
@@ -240,9 +244,30 @@ Solution parse_solution(std::string_view text, const std::string& name, const In
   solution.omega = read_omega(root.member("omega"));
   if (const auto following = root.find("following")) solution.may_follow = following->boolean();
   const bool has_plan = root.find("cost") || root.find("agents");
-  if (has_plan) solution.plan = PlanReader(instance).read(root);
+  AgentOrder agents;
+  if (has_plan) solution.plan = PlanReader(instance).read(root, agents);
+  if (order) *order = std::move(agents);
   if (const auto stats = root.find("stats")) solution.stats = read_stats(*stats);
   return solution;
+}
+
+std::vector<Violation> check_in_file(const Instance& instance, const Solution& solution,
+                                     const AgentOrder& order, std::size_t limit) {
+  constexpr std::string_view kAgents = "/agents/";
+  std::vector<Violation> violations = check(instance, solution, limit);
+  for (Violation& violation : violations) {
+    std::string& pointer = violation.json_pointer;
+    if (!pointer.starts_with(kAgents)) continue;
+    const std::size_t end = std::min(pointer.find('/', kAgents.size()), pointer.size());
+    const auto agent =
+        static_cast<AgentIndex>(std::stoi(pointer.substr(kAgents.size(), end - kAgents.size())));
+    const auto place = std::ranges::find(order, agent);
+    if (place != order.end())
+      pointer.replace(kAgents.size(), end - kAgents.size(), std::to_string(place - order.begin()));
+    else if (!order.empty())
+      pointer = "/agents";
+  }
+  return violations;
 }
 
 }  // namespace grove::detail

@@ -284,7 +284,11 @@ RecountedPlan read_and_recount(const std::filesystem::path& path, const Instance
 
 ClaimedPlan read_plan_of_any_tool(const std::filesystem::path& path, const Instance& instance) {
   const std::string content = read_text(path);
-  if (is_json(content)) return {parse_solution(content, path.string(), instance), {}};
+  if (is_json(content)) {
+    ClaimedPlan plan;
+    plan.solution = parse_solution(content, path.string(), instance, &plan.order);
+    return plan;
+  }
   if (!instance.is_on_grid())
     throw InputError(path.string(), "line 1",
                      "expected a plan file (JSON), since the instance is on a roadmap");

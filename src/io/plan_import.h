@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/plan_file.h"
 #include "model/plan.h"
 
 namespace grove::detail {
@@ -17,6 +18,7 @@ namespace grove::detail {
 struct ClaimedPlan {
   Solution solution;
   std::vector<std::string> unclaimed;  // subset of "cost", "lower bound", "order of tasks"
+  AgentOrder order = {};               // only for Grove's own plan files
 };
 
 // True if agents turn freely and tasks take no time, so that a sequence of places determines a

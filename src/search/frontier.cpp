@@ -110,25 +110,32 @@ NodePtr Frontier::take_locked(std::map<Cost, std::vector<Open>>::iterator best) 
 }
 
 // Takes from the second half of each heap, which consists of leaves. A leaf is no better than any
-// of its ancestors in the heap, so this approximates the worse half.
+// of its ancestors in the heap, so this approximates the worse half. All memory is allocated before
+// the first change, so that nothing has changed if an allocation fails.
 std::vector<NodePtr> Frontier::take_for_transfer(std::size_t count, bool keeps_next) {
   const std::lock_guard lock(mutex_);
   std::vector<NodePtr> spare;
   const Node* const next = open_.empty() ? nullptr : open_.begin()->second.front().node.get();
   spare.reserve(std::min(count, open_count_));
   in_progress_.reserve(in_progress_.size() + std::min(count, open_count_));
-  for (auto& [rank, heap] : open_) {
+  std::map<Cost, std::size_t> to_take;  // number of nodes of each rank
+  std::size_t left = count;
+  for (const auto& [rank, heap] : open_) {
     const bool is_kept = keeps_next && rank == open_.begin()->first;
     const std::size_t half = (heap.size() + (is_kept ? 0 : 1)) / 2;
-    const std::size_t here = std::min(half, count - spare.size());
-    if (here == 0) continue;
-    taken_[rank] += here;
-    open_count_ -= here;
+    if (const std::size_t here = std::min(half, left); here > 0) to_take[rank] = here;
+    left -= std::min(half, left);
+    if (left == 0) break;
+  }
+  for (const auto& [rank, here] : to_take) {
+    std::vector<Open>& heap = open_.find(rank)->second;
     for (auto it = heap.end() - static_cast<std::ptrdiff_t>(here); it != heap.end(); ++it)
       in_progress_.push_back(spare.emplace_back(std::move(it->node)));
     heap.erase(heap.end() - static_cast<std::ptrdiff_t>(here), heap.end());
-    if (spare.size() == count) break;
+    open_count_ -= here;
   }
+  taken_.merge(to_take);  // keeps in `to_take` the ranks that taken_ has already
+  for (const auto& [rank, here] : to_take) taken_.find(rank)->second += here;
   std::erase_if(open_, [](const auto& level) { return level.second.empty(); });
   GROVE_ASSERT(hold(open_, open_count_), "the count of open nodes is that of all levels");
   GROVE_ASSERT(

@@ -233,6 +233,11 @@ TEST(Api, InvalidArgumentNamesTheField) {
                        {{.id = "t", .place = Cell{0, 0}, .agents = {"a", "b"}}});
             }),
             "/tasks/0/agents/1");
+  EXPECT_EQ(field_of([&] {
+              Instance(world, {{.id = "a", .start = {Cell{0, 0}}}},
+                       {{.id = "t", .place = Cell{1, 1}, .agents = {"a"}}});
+            }),
+            "/tasks/0/place");
   EXPECT_EQ(field_of([] { World::from_rows({"..", "."}); }), "/1");
   EXPECT_EQ(field_of([] { World::from_rows({"..", ".x"}); }), "/1");
   EXPECT_EQ(field_of([] { World::from_rows({}); }), "");
@@ -380,6 +385,10 @@ TEST(Api, SessionAdvancesChangesAndReplans) {
   EXPECT_THAT(check(session.instance(), *session.plan()), IsEmpty());
   EXPECT_THAT(after.plan->agents[1].tasks, ::testing::Contains("more"));
   EXPECT_EQ(field_of([&] { session.change({.dropped_tasks = {"none"}}); }), "/dropped_tasks/0");
+  EXPECT_EQ(field_of([&] {
+              session.change({.new_tasks = {{.id = "t", .place = Cell{1, 1}, .agents = {"red"}}}});
+            }),
+            "/new_tasks/0/place");
   EXPECT_EQ(field_of([&] { session.advance(1, {{.agent = "green", .steps = 1}}); }), "/late/0");
   EXPECT_EQ(field_of([&] { session.advance(1, {{.agent = "red", .steps = 2}}); }), "/late");
   Session with(small(), before);

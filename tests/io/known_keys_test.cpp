@@ -128,6 +128,9 @@ TEST_F(KnownKeys, CloseKeyIsSuggested) {
   // This key belongs to a different object but is similar to a key of this one.
   EXPECT_EQ(refused("instance", R"({"map": "m.map", "agents": [], "task": []})"),
             "f: /: " + hint("task", "'tasks'"));
+  EXPECT_EQ(refused("instance", R"({"map": "m.map", "agents": [{"id": "a", "start": [0, 0],
+      "working": {"tasks": "w", "done": 1}}], "tasks": []})"),
+            "f: /agents/0/working: " + hint("tasks", "'task'"));
   // The similar key is already used, so the message does not suggest it.
   EXPECT_EQ(
       refused_member(kInstance, 1, R"("gaol": [1, 1])"),

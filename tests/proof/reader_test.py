@@ -47,6 +47,15 @@ class Reader(unittest.TestCase):
         self.assertLess(found.seconds, seconds, data[:200])
         return found
 
+    def test_byte_order_marks_are_read(self):
+        with tempfile.TemporaryDirectory() as name:
+            path = CROSS.write(Path(name))
+            for file in Path(name).iterdir():
+                file.write_bytes(b"\xef\xbb\xbf" + file.read_bytes())
+            weak = certificate(CROSS, "theorem 4", "leaf")
+            self.ends(weak, (0,), "^verified: no plan costs less than 4\n", instance=path)
+            self.assertEqual(checkers.small_checker(path, weak).code, 0)
+
     def test_compressed_certificates_are_read(self):
         whole = compressed(GOOD.encode())
         for data in (GOOD, whole, compressed(GOOD[:100].encode()) + compressed(GOOD[100:].encode())):

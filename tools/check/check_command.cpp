@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "io/input_error.h"
+#include "io/plan_file.h"
 #include "io/plan_import.h"
 #include "model/check.h"
 #include "tools/common/commands.h"
@@ -81,7 +82,8 @@ void run(const CheckArguments& arguments) {
   const LoadedInstance loaded = load_before_plan(arguments.instance);
   const std::string plan = arguments.plan == "-" ? "/dev/stdin" : arguments.plan;
   const ClaimedPlan claimed = read_plan_of_any_tool(plan, loaded.instance);
-  const auto violations = check(loaded.instance, claimed.solution, kMaxViolations);
+  const auto violations =
+      check_in_file(loaded.instance, claimed.solution, claimed.order, kMaxViolations);
   if (violations.empty()) return print_verdict(claimed);
   print_violations(plan, violations);
   throw CommandFailed(kExitBadInput);

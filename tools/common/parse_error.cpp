@@ -27,6 +27,13 @@ Words options_of(const CLI::App& app) {
   return names;
 }
 
+// Returns "; expected one of ..." with the commands, if any, below `command`. The program itself
+// has too many commands for one line; its help lists them.
+std::string expected_commands(const CLI::App& command) {
+  if (command.get_parent() == nullptr || commands_of(command).empty()) return "";
+  return fmt::format("; expected one of {}", fmt::join(commands_of(command), ", "));
+}
+
 std::string unknown_text(const CLI::App& command) {
   const Words words = command.remaining();
   const auto option =
@@ -44,10 +51,12 @@ std::string suggestion(const std::string& word, const Words& known) {
 }
 
 std::string parse_error_text(const CLI::App& command, const CLI::ParseError& error) {
-  if (command.remaining_size() == 0) return error.what();
-  if (dynamic_cast<const CLI::ExtrasError*>(&error)) return unknown_text(command);
   const bool wants_command = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr &&
                              command.get_require_subcommand_min() > 0;
+  if (command.remaining_size() == 0)
+    return wants_command ? fmt::format("a command is required{}", expected_commands(command))
+                         : error.what();
+  if (dynamic_cast<const CLI::ExtrasError*>(&error)) return unknown_text(command);
   if (!wants_command) return error.what();  // else this text would not name the word
   return unknown_command_text(command, command.remaining().front());
 }
@@ -76,7 +85,9 @@ std::string misplaced_command_text(const CLI::App& program, const Words& words) 
 }
 
 std::string unknown_command_text(const CLI::App& command, const std::string& word) {
-  return fmt::format("unknown command '{}'{}", word, suggestion(word, commands_of(command)));
+  const std::string similar = suggestion(word, commands_of(command));
+  return fmt::format("unknown command '{}'{}", word,
+                     similar.empty() ? expected_commands(command) : similar);
 }
 
 }  // namespace grove::detail

@@ -10,7 +10,6 @@
 #include "io/plan_export.h"
 #include "io/plan_file.h"
 #include "io/tracker_file.h"
-#include "model/check.h"
 #include "tools/common/commands.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/convert/convert_parts.h"
@@ -78,8 +77,9 @@ void write_plan_as(const ConvertArguments& arguments, const LoadedInstance& load
 void convert_plan(const ConvertArguments& arguments, InstanceFormat from, PlanFormat to) {
   const LoadedInstance loaded = load(arguments, from);
   print_warnings(loaded.warnings);
-  const Solution solution = read_solution(arguments.plan, loaded.instance);
-  const auto violations = check(loaded.instance, solution, 1);
+  AgentOrder order;
+  const Solution solution = read_solution(arguments.plan, loaded.instance, &order);
+  const auto violations = check_in_file(loaded.instance, solution, order, 1);
   if (!violations.empty())
     throw InputError(arguments.plan, violations.front().json_pointer, violations.front().message);
   require_distinct_files(arguments.output, loaded.map_path, "the map");

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/input_error.h"
-#include "model/check.h"
+#include "io/plan_file.h"
 
 namespace grove::detail {
 
@@ -28,7 +28,7 @@ AgentIndex robot_of(const std::string& option, const std::string& text, const st
 
 ClaimedPlan read_plan_to_execute(const std::string& file, const Instance& instance) {
   ClaimedPlan claimed = read_plan_of_any_tool(file, instance);
-  const auto wrong = check(instance, claimed.solution, 1);
+  const auto wrong = check_in_file(instance, claimed.solution, claimed.order, 1);
   if (wrong.empty()) return claimed;
   const bool is_made_otherwise = claimed.solution.may_follow && !instance.may_follow();
   throw InputError(

@@ -283,7 +283,8 @@ void add_replan_command(CLI::App& root) {
                   "plan that is being executed: a plan file, or paths of another solver")
       ->required()
       ->type_name("");
-  add_integer(*app, "--at", a.at, kPlanSteps, "number of steps of the plan that have passed")
+  add_integer(*app, "--at", a.at, kPlanSteps,
+              "T: steps since the start of the plan, also for robots that are late")
       ->required();
   add_repeated(*app, "--late", a.change.late, "ROBOT=STEPS",
                "robot that is where the plan had it STEPS steps ago (repeatable)");

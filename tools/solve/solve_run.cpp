@@ -6,11 +6,14 @@
 #include <CLI/Error.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "io/atomic_file.h"
 #include "io/input_error.h"
+#include "io/text_file.h"
 #include "tools/common/commands.h"
 #include "tools/common/standard_error.h"
 #include "tools/common/version.h"
@@ -48,6 +51,21 @@ void prepare_incumbents(const SolveArguments& a, const LoadedInstance& loaded) {
   require_writable(IncumbentFiles::file(a.incumbents, 1));
 }
 
+// Returns the name of the plan file if the user has not named one. Throws InputError if a file with
+// this name exists and is not a plan file.
+std::filesystem::path default_plan_file(const SolveArguments& a) {
+  const std::filesystem::path file = a.instance.stem() + ".plan.json";
+  if (!std::filesystem::is_regular_file(file)) return file;
+  const std::string text = read_text(file);
+  for (const std::string_view key : {R"("status")", R"("lower_bound")"})
+    if (text.find(key) == std::string::npos)
+      throw InputError(file.string(), "",
+                       fmt::format("exists and is not a plan file; expected '-o {}' to replace it, "
+                                   "or another name",
+                                   one_line(file.string())));
+  return file;
+}
+
 struct PlanWritten {
   std::optional<Cost> kept;  // result of write_plan()
   std::string failure;       // "" if there is none
@@ -65,7 +83,7 @@ PlanWritten try_to_write_plan(const SolveArguments& a, const Instance& instance,
 }  // namespace
 
 std::vector<OutputLock> prepare_outputs(SolveArguments& a, const LoadedInstance& loaded) {
-  if (a.output.empty()) a.output = a.instance.stem() + ".plan.json";
+  if (a.output.empty()) a.output = default_plan_file(a);
   for (const auto& file : {a.output, a.log, a.proof}) {
     require_distinct_files(file, a.instance.path(), "the instance");
     require_distinct_files(file, loaded.map_path, "the map");

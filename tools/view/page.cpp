@@ -41,8 +41,11 @@ std::string without_markup(std::string_view json) {
   return safe;
 }
 
+// Every page has a script element with data, whose id begins so.
+constexpr std::string_view kDataElement = "<script type=\"application/json\" id=\"grove-";
+
 struct Data {
-  const char* id;
+  const char* id;         // after "grove-"
   std::string_view text;  // without '<'
 };
 
@@ -55,7 +58,7 @@ std::string html(std::string_view title, const PageParts& parts, std::initialize
                  Asks asks = Asks::kNone) {
   std::string data;
   for (const auto& [id, text] : all)
-    data += fmt::format("<script type=\"application/json\" id=\"{}\">{}</script>\n", id, text);
+    data += fmt::format("{}{}\">{}</script>\n", kDataElement, id, text);
   const bool is_followed = asks == Asks::kItsServer;
   return fmt::format(
       R"(<!doctype html>
@@ -79,34 +82,36 @@ std::string html(std::string_view title, const PageParts& parts, std::initialize
 
 }  // namespace
 
+bool is_page(std::string_view text) {
+  return text.find(kDataElement) != std::string_view::npos;
+}
+
 std::string plan_page(std::string_view title, std::string_view data) {
-  return html(title, plan_page_parts(), {{"grove-data", data}});
+  return html(title, plan_page_parts(), {{"data", data}});
 }
 
 std::string run_page(std::string_view title, std::string_view log) {
-  return html(title, run_page_parts(), {{"grove-log", without_markup(log)}});
+  return html(title, run_page_parts(), {{"log", without_markup(log)}});
 }
 
 std::string following_page(std::string_view title) {
-  return html(title, run_page_parts(), {{"grove-log", ""}}, Asks::kItsServer);
+  return html(title, run_page_parts(), {{"log", ""}}, Asks::kItsServer);
 }
 
 std::string drive_page(std::string_view title, std::string_view data, std::string_view order,
                        std::string_view drive) {
-  return html(
-      title, drive_page_parts(),
-      {{"grove-data", data}, {"grove-order", order}, {"grove-drive", without_markup(drive)}});
+  return html(title, drive_page_parts(),
+              {{"data", data}, {"order", order}, {"drive", without_markup(drive)}});
 }
 
 std::string following_drive_page(std::string_view title, std::string_view data,
                                  std::string_view order) {
-  return html(title, drive_page_parts(), {{"grove-data", data}, {"grove-order", order}},
-              Asks::kItsServer);
+  return html(title, drive_page_parts(), {{"data", data}, {"order", order}}, Asks::kItsServer);
 }
 
 std::string proof_page(std::string_view title, std::string_view data,
                        std::string_view certificate) {
-  return html(title, proof_page_parts(), {{"grove-data", data}, {"grove-proof", certificate}});
+  return html(title, proof_page_parts(), {{"data", data}, {"proof", certificate}});
 }
 
 }  // namespace grove::detail

@@ -7,6 +7,9 @@
 
 namespace grove::detail {
 
+// True if `text` is a page of this program, of any version.
+bool is_page(std::string_view text);
+
 // Page that plays plans. `data`: see page_data.h.
 std::string plan_page(std::string_view title, std::string_view data);
 

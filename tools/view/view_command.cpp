@@ -16,7 +16,9 @@
 #include "execution/action_dependency_graph.h"
 #include "io/atomic_file.h"
 #include "io/input_error.h"
+#include "io/plan_file.h"
 #include "io/plan_import.h"
+#include "io/text_file.h"
 #include "model/check.h"
 #include "proof/certificate_text.h"
 #include "tools/common/commands.h"
@@ -113,6 +115,16 @@ std::string page_file(const ViewArguments& arguments) {
   return default_output(arguments);
 }
 
+// Refuses a file that exists and is not a page of Grove, unless the user has named it.
+void require_own_page(const ViewArguments& arguments, const std::string& file) {
+  if (!arguments.output.empty() || !fs::is_regular_file(file)) return;
+  if (!is_page(read_text(file)))
+    throw InputError(file, "",
+                     fmt::format("exists and is not a page of Grove; expected '-o {}' to replace "
+                                 "it, or another name",
+                                 one_line(file)));
+}
+
 void write(const std::string& file, const std::string& bytes) {
   write_file_atomically(file, bytes);
   fmt::print("wrote {}: {}\n", file, size_text(bytes.size()));
@@ -122,6 +134,7 @@ void write_page(const ViewArguments& arguments, const Instance& instance,
                 const std::vector<NamedPlan>& plans) {
   const std::string name = fs::path(arguments.instance.name()).filename().string();
   const std::string output = page_file(arguments);
+  require_own_page(arguments, output);
   write(output, plan_page(name, page_data(name, instance, plans)));
   if (arguments.open) open_in_browser(fs::absolute(output).string());
 }
@@ -150,6 +163,7 @@ void write_log_page(const ViewArguments& arguments, const std::string& log,
   const std::string output =
       arguments.output.empty() ? fs::path(log).stem().string() + ".html" : arguments.output;
   require_distinct_files(output, log, "the log");
+  require_own_page(arguments, output);
   write(output, page);
   if (arguments.open) open_in_browser(fs::absolute(output).string());
 }
@@ -162,7 +176,7 @@ void show_run(const ViewArguments& arguments) {
 
 void require_valid(const Instance& instance, const NamedPlan& plan, std::string_view expected) {
   const Solution& solution = plan.claimed.solution;
-  const auto wrong = check(instance, solution, 1);
+  const auto wrong = check_in_file(instance, solution, plan.claimed.order, 1);
   if (solution.plan && wrong.empty()) return;
   throw InputError(
       plan.name, wrong.empty() ? "" : wrong.front().json_pointer,
@@ -196,6 +210,7 @@ void show_proof(const ViewArguments& arguments, const Instance& instance,
   const std::string data = page_data(name_of(arguments.instance.name()), instance, plans);
   const std::string output = page_file(arguments);
   require_distinct_files(output, arguments.proof, "the certificate");
+  require_own_page(arguments, output);
   write(output, proof_page(name_of(arguments.proof), data, certificate.lines));
   if (arguments.open) open_in_browser(fs::absolute(output).string());
 }
@@ -206,7 +221,7 @@ void warn_if_invalid(const Instance& instance, const NamedPlan& plan,
                      std::vector<std::string>& warnings) {
   const Solution& solution = plan.claimed.solution;
   if (!solution.plan) return;
-  const auto wrong = check(instance, solution, 1);
+  const auto wrong = check_in_file(instance, solution, plan.claimed.order, 1);
   if (!wrong.empty())
     warnings.push_back(fmt::format("{} is not valid: {}: {}", one_line(plan.name),
                                    wrong.front().json_pointer, one_line(wrong.front().message)));

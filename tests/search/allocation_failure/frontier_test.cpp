@@ -7,6 +7,7 @@
 
 #include <deque>
 #include <new>
+#include <utility>
 
 #include "tests/support/failing_new.h"
 #include "tests/support/instances.h"
@@ -77,6 +78,22 @@ TEST_F(ScarceFrontier, KeepsItsNodesWhenReinsertFails) {
       fail_everywhere([](Frontier& frontier, const NodePtr& taken) { frontier.reinsert(taken); },
                       [](const Frontier& frontier) { return frontier.bound() == 3; });
   EXPECT_GT(failures, 0);
+}
+
+TEST_F(ScarceFrontier, KeepsItsNodesWhenTakeForTransferFails) {
+  const std::vector<NodePtr> more{node(4), node(6), node(7)};
+  const int failures = fail_everywhere(
+      [&](Frontier& frontier, const NodePtr&) {
+        const int at = std::exchange(testing::allocations_until_failure, -1);
+        for (const NodePtr& each : more) frontier.push(each);
+        testing::allocations_until_failure = at;
+        frontier.take_for_transfer(4, false);
+      },
+      [](const Frontier& frontier) {
+        return frontier.bound() == 3 && frontier.open() == 4 && frontier.live() == 5 &&
+               frontier.levels(9).size() == 4;
+      });
+  EXPECT_GT(failures, 3);
 }
 
 TEST_F(ScarceFrontier, KeepsItsBoundWhenRestartFails) {

@@ -75,9 +75,17 @@ TEST_F(CheckCommand, PrintsEachViolationOnItsOwnLine) {
             "omega 0.5\n");
 }
 
+TEST_F(CheckCommand, PointersReferToTheOrderOfThePlanFile) {
+  const std::string wrong = R"({"id": "b", "sequence": ["t"], "cost": 1, "path": [[2,1],[0,1]]})";
+  const ProcessResult result = check(kClaims, wrong + ", " + kAgentA);
+  EXPECT_NE(said(result).find("p.json: /agents/0/path/1: agent 'b' jumps"), std::string::npos)
+      << result.err;
+  EXPECT_EQ(result.err.find("/agents/1"), std::string::npos) << result.err;
+}
+
 TEST_F(CheckCommand, RejectsEmptyAndPartialPlans) {
   EXPECT_EQ(said(check(kClaims, kAgentA)),
-            "p.json: /agents/1: agent 'b' has no path; expected one for every agent\n");
+            "p.json: /agents: agent 'b' has no path; expected one for every agent\n");
   EXPECT_EQ(said(check(R"("status": "optimal", "cost": 0, "lower_bound": 0, "omega": 0)", "")),
             "p.json: /agents/0: agent 'a' has no path; expected one for every agent\n"
             "p.json: /agents/1: agent 'b' has no path; expected one for every agent\n");

@@ -50,9 +50,17 @@ TEST(Usage, VersionNamesTheCommit) {
 
 TEST(Usage, WrongUsagePrintsOneLineAndAHint) {
   const auto said = [](const Arguments& arguments) { return complaint(run_grove(arguments)); };
-  EXPECT_EQ(said({}), "A subcommand is required (see 'grove --help')");
+  EXPECT_EQ(said({}), "a command is required (see 'grove --help')");
   EXPECT_EQ(said({"frob"}), "unknown command 'frob' (see 'grove --help')");
-  EXPECT_EQ(said({"generate", "frob"}), "unknown command 'frob' (see 'grove generate --help')");
+  EXPECT_EQ(said({"generate", "frob"}),
+            "unknown command 'frob'; expected one of map, roadmap, scenario, instance, dataset, "
+            "paper (see 'grove generate --help')");
+  EXPECT_EQ(said({"generate", "map", "maze", "-o", "m.map"}),
+            "unknown command 'maze'; expected one of empty, random, rooms (see 'grove generate map "
+            "--help')");
+  EXPECT_EQ(said({"generate", "map"}),
+            "a command is required; expected one of empty, random, rooms (see 'grove generate map "
+            "--help')");
   EXPECT_EQ(said({"check"}), "INSTANCE is required (see 'grove check --help')");
   EXPECT_EQ(said({"check", "a"}), "PLAN is required (see 'grove check --help')");
   EXPECT_EQ(said({"check", "a", "b", "--bogus"}),

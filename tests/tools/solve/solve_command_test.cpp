@@ -82,6 +82,17 @@ TEST_F(SolveCommand, WritesAPlanThatTheCheckerAccepts) {
   }
 }
 
+TEST_F(SolveCommand, ReplacesAForeignFileOnlyByName) {
+  directory_.write("first.plan.json", "{\"notes\": 1}\n");
+  EXPECT_EQ(complaint(solve({data("first.cts.json")})),
+            "first.plan.json: exists and is not a plan file; expected '-o first.plan.json' to "
+            "replace it, or another name");
+  EXPECT_EQ(plan("first.plan.json")["notes"], 1);
+  EXPECT_EQ(solve({data("first.cts.json"), "-o", "first.plan.json"}).exit_code, 0);
+  EXPECT_EQ(solve({data("first.cts.json")}).exit_code, 0) << "the plan of an earlier run";
+  EXPECT_EQ(plan("first.plan.json")["status"], "optimal");
+}
+
 TEST_F(SolveCommand, SolvesTheFirstRowsOfAScenario) {
   const ProcessResult solved = solve({data("empty-32x32.scen"), "--map", data("empty-32x32.map"),
                                       "--agents", "10", "--output", "p.json"});

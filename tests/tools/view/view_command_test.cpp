@@ -62,6 +62,27 @@ TEST_F(ViewCommand, WritesAPageWithInstanceAndPlan) {
   EXPECT_THAT(page["plans"][0]["agents"][0]["path"], StartsWith("@0;"));
 }
 
+TEST_F(ViewCommand, ReplacesAForeignPageOnlyByName) {
+  const std::string plan = plan_of("shop");
+  ProcessOptions options;
+  options.directory = directory_.path().string();
+  const auto view = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"view", data("shop.cts.json"), plan};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_grove(arguments, options);
+  };
+  directory_.write("shop.html", "<!doctype html>\n<p>My shop</p>\n");
+  const ProcessResult refused = view({});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.err,
+            "grove: error: shop.html: exists and is not a page of Grove; expected '-o shop.html' "
+            "to replace it, or another name\n");
+  EXPECT_THAT(read("shop.html"), HasSubstr("My shop"));
+  EXPECT_EQ(view({"-o", "shop.html"}).exit_code, 0);
+  EXPECT_EQ(view({}).exit_code, 0) << "the page of an earlier call";
+  EXPECT_THAT(read("shop.html"), Not(HasSubstr("My shop")));
+}
+
 TEST_F(ViewCommand, RoadmapIsInMetresAndPathsInPlaces) {
   const ProcessResult done =
       run_grove({"view", data("yard.cts.json"), plan_of("yard"), "-o", directory_ / "yard.html"});
