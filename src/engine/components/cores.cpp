@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The component that proves bounds by unsatisfiable cores (cores/core_search.h).
 //
-// *Share.* The tree search starts alone, because its first nodes solve most instances. After
-// cores_start_work both share the effort, cores_max_share units per unit of other effort: it is not
-// known in advance which of the two proves a bound sooner. A tree multiplies the nodes of
-// independent groups of agents, cores add; in narrow maps the tree is ahead, because it reasons about
-// corridors and groups.
+// *Share.* It is not known in advance whether tree search or cores prove a bound sooner: a tree
+// multiplies the nodes of independent groups of agents, cores add; in narrow maps the tree is ahead,
+// because it reasons about corridors and groups. The tree search starts alone, because its first
+// nodes solve most instances. After cores_start_work the cores get, per unit of other effort,
+//
+//   cores_max_share                      if their bound is the global bound
+//   (g_t / r_t) / (g_c / r_c)            otherwise, within cores_min_share .. cores_max_share
+//
+// where g is the gap between the cost of the incumbent and a bound (global: t, cores: c), and r is
+// the rate at which the bound has risen over about the latter half of the effort: the quotient
+// compares the efforts after which both would close the gap if they went on as they did of late. 1
+// without an incumbent.
 //
 // It is one sequential search; only worker 0 of the run performs it.
 #include <algorithm>
@@ -27,6 +34,30 @@ std::size_t max_cores_bytes(const Limits& limits) {
   return limit ? std::min(kMaxCoresBytes, *limit / 4) : kMaxCoresBytes;
 }
 
+// Rate at which a bound has risen per unit of effort, over the latter half to three quarters of the
+// effort.
+class RiseRate {
+ public:
+  void update(std::int64_t effort, Cost bound) {
+    if (effort >= 2 * mid_.effort) {
+      first_ = mid_;
+      mid_ = {effort, bound};
+    }
+    now_ = {effort, bound};
+  }
+  double rate() const {
+    const auto effort = static_cast<double>(now_.effort - first_.effort);
+    return static_cast<double>(now_.bound - first_.bound) / std::max(effort, 1.0);
+  }
+
+ private:
+  struct Point {
+    std::int64_t effort = 0;
+    Cost bound = 0;
+  };
+  Point first_, mid_, now_;
+};
+
 class CoresWork : public WorkSource {
  public:
   CoresWork(const ComponentContext& context, EffortAccount& account)
@@ -34,9 +65,9 @@ class CoresWork : public WorkSource {
 
   std::int64_t start() const override { return context_.options.tuning.cores_start_work; }
   Claim claim() override { return {.is_open = !over_}; }
-  Share share(std::int64_t /*base*/) const override {
-    const double most = context_.options.tuning.cores_max_share;
-    return {.wanted = most, .cap = most};
+  Share share(std::int64_t base) const override {
+    const Tuning& tuning = context_.options.tuning;
+    return {.wanted = wanted(base), .floor = tuning.cores_min_share, .cap = tuning.cores_max_share};
   }
   bool uses_idle_time() const override { return false; }
   std::unique_ptr<WorkItem> next() override;
@@ -62,11 +93,15 @@ class CoresWork : public WorkSource {
     std::int64_t work = 0;
   };
   Progress run();
+  double wanted(std::int64_t base) const;
 
   const ComponentContext& context_;
   bool over_ = false;
   std::unique_ptr<CoreSearch> search_;  // made when first due
   Cost proven_ = 0;                     // the greatest bound so far
+  std::atomic<std::int64_t> work_{0};
+  mutable RiseRate others_rate_;
+  mutable RiseRate rate_;
   Counts counts_;
 };
 
@@ -102,6 +137,7 @@ CoresWork::Progress CoresWork::run() {
   const std::int64_t before = search_->work();
   over_ = search_->step(context_.bounds.cutoff()) != CoreSearch::Outcome::kWorking;
   Progress progress{search_->lower_bound(), search_->plan(), search_->work() - before};
+  work_ = search_->work();
   counts_.cores = search_->cores();
   counts_.sat_conflicts = search_->sat_conflicts();
   counts_.path_conflicts = search_->path_conflicts();
@@ -109,6 +145,18 @@ CoresWork::Progress CoresWork::run() {
   proven_ = progress.proven;
   if (over_) search_.reset();  // frees memory for the tree search
   return progress;
+}
+
+double CoresWork::wanted(std::int64_t base) const {
+  const Cost cutoff = context_.bounds.cutoff();
+  const Cost bound = context_.bounds.lower_bound();
+  others_rate_.update(base, bound);
+  rate_.update(work_, proven_);
+  if (proven_ >= bound) return context_.options.tuning.cores_max_share;
+  if (cutoff >= kInfiniteCost || proven_ == 0) return 1;
+  const double others_gap = static_cast<double>(cutoff - bound);
+  const double gap = static_cast<double>(cutoff - proven_);
+  return others_gap * rate_.rate() / std::max(gap * others_rate_.rate(), 1e-12);
 }
 
 class CoresComponent : public Component {
