@@ -49,6 +49,30 @@ TEST(Constraint, SatisfiesAgreesWithReference) {
   }
 }
 
+// Of the constraints that violates() decides, a path satisfies those that none of its presences
+// violates.
+TEST(Constraint, PresencesDecideConstraintsOnPlacesAndRests) {
+  std::mt19937 random(6);
+  std::map<std::pair<ConstraintKind, bool>, int> seen;
+  for (int round = 0; round < 4000; ++round) {
+    const Grid grid = testing::random_corridor_map(random);
+    const Path path = testing::random_walk(grid, random, 15);
+    const std::vector<Cell> goals{path[0], path.back()};
+    const Constraint c = random() % 3 == 0
+                             ? testing::random_bar(grid, path, goals, random)
+                             : testing::random_conditional_constraint(grid, path, goals, random);
+    if (c.is_move() || c.kind == ConstraintKind::kNoTraversal) continue;
+    const Time last = last_arrival(grid, path);
+    bool violated = violates(c, path.back(), last, true);
+    for (Time time = 0; time < last; ++time) violated |= violates(c, path[time], time, false);
+    ++seen[{c.kind, violated}];
+    ASSERT_EQ(violated, !testing::satisfies(grid, path, c))
+        << name_of(c.kind) << " " << c.cell << " " << c.begin << " " << c.end;
+  }
+  EXPECT_EQ(seen.size(), 6);
+  for (const auto& [kind, count] : seen) EXPECT_GT(count, 20) << name_of(kind.first);
+}
+
 TEST(Constraint, SatisfiesThrowsForSequenceConstraint) {
   const Grid grid = testing::grid_of({".."});
   const Constraint next{1, kNoCell, 0, 0, ConstraintKind::kStopIs};
