@@ -58,7 +58,7 @@ class JointMoves {
   std::vector<Node> from_;
   std::vector<Node> to_;
   std::vector<Time>
-      max_delta_f_after_;  // by agent: sum of the largest delta_f of this and all later agents
+      max_remaining_delta_f_;  // by agent: sum of the largest delta_f of this and all later agents
   std::vector<std::int8_t> from_on_;  // by place: the agent there now
   std::vector<std::int8_t> to_on_;    // by place: the agent that has chosen to move there
 };
