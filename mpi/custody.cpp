@@ -33,14 +33,14 @@ void Custody::release(int to, std::int64_t batches, Frontier& frontier) {
 
 void Custody::received(int from) {
   Peer& peer = peers_[from];
-  ++peer.taken;
+  ++peer.received;
   peer.has_news = true;
 }
 
 std::vector<message::BatchReceived> Custody::new_receipts(int by) const {
   std::vector<message::BatchReceived> receipts;
   for (const auto& [rank, peer] : peers_)
-    if (peer.has_news) receipts.push_back({by, rank, peer.taken});
+    if (peer.has_news) receipts.push_back({by, rank, peer.received});
   return receipts;
 }
 

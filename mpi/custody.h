@@ -41,9 +41,9 @@ class Custody {
 
  private:
   struct Peer {
-    std::int64_t sent = 0;   // batches
-    std::int64_t taken = 0;  // batches received from that rank
-    bool has_news = false;   // `taken` has changed since the last status
+    std::int64_t sent = 0;      // batches
+    std::int64_t received = 0;  // batches received from that rank
+    bool has_news = false;      // `received` has changed since the last status
     std::map<std::int64_t, std::vector<NodePtr>> custody;  // by batch number
   };
   std::map<int, Peer> peers_;  // by rank

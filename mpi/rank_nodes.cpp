@@ -14,7 +14,7 @@ namespace grove::detail {
 RankNodes::RankNodes(ChildLinks& children)
     : children_(children),
       latest_(static_cast<std::size_t>(children.count())),
-      under_way_(latest_.size()),
+      in_transit_(latest_.size()),
       children_of_this_epoch_(children.count()) {
   for (std::size_t child = 0; child < latest_.size(); ++child) bounds_.insert(kInfiniteCost);
 }
@@ -24,7 +24,7 @@ RankNodes::RankNodes(ChildLinks& children)
 void RankNodes::update(int child, message::Status status) {
   const auto place = static_cast<std::size_t>(child);
   message::Status& latest = latest_.at(place);
-  std::deque<Cost>& sent = under_way_[place];
+  std::deque<Cost>& sent = in_transit_[place];
   const std::int64_t arrived = status.assigned - latest.assigned;
   if (arrived < 0 || arrived > std::ssize(sent) || status.epoch < latest.epoch ||
       status.epoch > epoch_)
@@ -44,7 +44,7 @@ void RankNodes::update(int child, message::Status status) {
   latest = std::move(status);
   GROVE_CHECK(std::ssize(bounds_) == std::ssize(latest_) + assignments_in_transit_,
               "each latest status and each assignment in transit has one bound");
-  GROVE_ASSERT(assignments_in_transit_ == std::accumulate(under_way_.begin(), under_way_.end(),
+  GROVE_ASSERT(assignments_in_transit_ == std::accumulate(in_transit_.begin(), in_transit_.end(),
                                                           std::int64_t{0},
                                                           [](std::int64_t sum, const auto& bounds) {
                                                             return sum + std::ssize(bounds);
@@ -109,7 +109,7 @@ void RankNodes::assign(int child, message::AssignNodes nodes) {
   Cost bound = nodes.evicted_bound;
   for (const NodeRecord& node : nodes.nodes) bound = std::min(bound, node.bound);
   bounds_.insert(bound);
-  under_way_.at(static_cast<std::size_t>(child)).push_back(bound);
+  in_transit_.at(static_cast<std::size_t>(child)).push_back(bound);
   ++assignments_in_transit_;
   children_.send(child, nodes);
 }
@@ -124,7 +124,7 @@ int RankNodes::least_loaded() const {
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
   return std::ranges::min(all, {}, [&](int child) {
     const auto place = static_cast<std::size_t>(child);
-    return std::tuple(under_way_[place].size(), latest_[place].open, child);
+    return std::tuple(in_transit_[place].size(), latest_[place].open, child);
   });
 }
 

@@ -54,9 +54,9 @@ class RankNodes : public LiveNodes {
   void erase_bound(Cost bound);
 
   ChildLinks& children_;
-  std::vector<message::Status> latest_;      // by child
-  std::vector<std::deque<Cost>> under_way_;  // by child: bounds of assignments in transit
-  std::multiset<Cost> bounds_;               // bounds of all latest statuses and assigned nodes
+  std::vector<message::Status> latest_;       // by child
+  std::vector<std::deque<Cost>> in_transit_;  // by child: bounds of assignments in transit
+  std::multiset<Cost> bounds_;                // bounds of all latest statuses and assigned nodes
   std::int64_t children_with_nodes_ = 0;
   std::int64_t assignments_in_transit_ = 0;
   std::int32_t epoch_ = 0;

@@ -114,11 +114,11 @@ class WorkSource {
   virtual ~WorkSource() = default;
 
   // Effort of lower tiers before the component gets its first turn.
-  virtual std::int64_t start() const { return 0; }
-  // Called only once the effort of lower tiers has reached start().
+  virtual std::int64_t start_effort() const { return 0; }
+  // Called only once the effort of lower tiers has reached start_effort().
   virtual Claim claim() { return {}; }
-  // `base`: effort of lower tiers so far.
-  virtual Share share(std::int64_t /*base*/) const { return {}; }
+  // `lower_tier_effort`: effort of lower tiers so far.
+  virtual Share share(std::int64_t /*lower_tier_effort*/) const { return {}; }
   // Returns a work item, or nullptr if there is none now.
   virtual std::unique_ptr<WorkItem> next() = 0;
   // False if the component does not pay for the item that it has just committed.
@@ -136,7 +136,7 @@ class WorkSource {
 };
 
 // Tiers of components. A component earns effort in proportion to the effort of lower tiers.
-enum class Tier : std::uint8_t {
+enum class EffortTier : std::uint8_t {
   kTree,    // gets the effort that the others leave
   kPrimal,  // finds plans
   kBound,   // proves bounds outside the tree search
@@ -159,7 +159,7 @@ class Component {
   Component& operator=(const Component&) = delete;
   virtual ~Component() = default;
 
-  virtual Tier tier() const = 0;
+  virtual EffortTier tier() const = 0;
   // Returns the work for a worker; nullptr if this worker gets none. `worker`: number of the worker
   // within the run, from 0. Called before the search, on one thread.
   virtual std::unique_ptr<WorkSource> source(int worker) = 0;

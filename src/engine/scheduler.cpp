@@ -5,7 +5,7 @@
 //   rate = min(cap, max(floor, wanted)).
 //
 // It pays for its own effort, except for an item after which pays() is false. A component is due if
-// the effort of lower tiers has reached start(), and
+// the effort of lower tiers has reached start_effort(), and
 // - its claim is urgent, or
 // - its claim is open and it has credit: earned >= spent.
 //
@@ -44,7 +44,7 @@ Scheduler::Scheduler(std::vector<Entry> entries, const SharedBounds& bounds)
 }
 
 bool is_due(WorkSource& source) {
-  if (source.account().base() < source.start()) return false;
+  if (source.account().lower_tier_effort() < source.start_effort()) return false;
   const Claim claim = source.claim();
   return claim.is_urgent || (claim.is_open && source.account().has_credit());
 }
@@ -54,12 +54,13 @@ bool is_due(WorkSource& source) {
 std::unique_ptr<WorkItem> Scheduler::choose() {
   for (std::size_t i = entries_.size(); i-- > 0;) {
     const Entry& entry = entries_[i];
-    if (!is_due(*entry.source) || (entry.tier == Tier::kBound && bounds_.over())) continue;
+    if (!is_due(*entry.source) || (entry.tier == EffortTier::kBound && bounds_.over())) continue;
     if (auto item = item_of(i)) return item;
   }
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Entry& entry = entries_[i];
-    if (!entry.source->uses_idle_time() || (entry.tier > Tier::kTree && bounds_.over())) continue;
+    if (!entry.source->uses_idle_time() || (entry.tier > EffortTier::kTree && bounds_.over()))
+      continue;
     if (auto item = item_of(i)) return item;
   }
   return nullptr;
@@ -78,7 +79,7 @@ void Scheduler::charge(const WorkItem& item) {
   for (const Entry& other : entries_) {
     if (other.tier <= own.tier) continue;
     EffortAccount& account = other.source->account();
-    const double rate = rate_of(other.source->share(account.base() + item.effort()));
+    const double rate = rate_of(other.source->share(account.lower_tier_effort() + item.effort()));
     GROVE_CHECK(rate >= 0, "no component earns effort at a negative rate");
     account.earn(item.effort(), rate);
   }

@@ -15,7 +15,7 @@ namespace grove::detail {
 class Scheduler {
  public:
   struct Entry {
-    Tier tier;
+    EffortTier tier;
     std::unique_ptr<WorkSource> source;
   };
 

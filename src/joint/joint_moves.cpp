@@ -26,9 +26,10 @@ Time JointMoves::generate(const Node* nodes, std::int32_t cost, Time expanded_bu
   expanded_budget_ = expanded_budget;
   budget_ = budget;
   next_budget_ = kNever;
-  max_delta_f_after_.assign(size + 1, 0);
+  max_remaining_delta_f_.assign(size + 1, 0);
   for (std::size_t i = size; i-- > 0;)
-    max_delta_f_after_[i] = max_delta_f_after_[i + 1] + agents_[i].moves(from_[i]).back().delta_f;
+    max_remaining_delta_f_[i] =
+        max_remaining_delta_f_[i + 1] + agents_[i].moves(from_[i]).back().delta_f;
   for (std::size_t i = 0; i < size; ++i) {
     GROVE_ASSERT(from_on_[place(i, from_)] == kNoAgent, "a joint state has no vertex conflict");
     from_on_[place(i, from_)] = static_cast<std::int8_t>(i);
@@ -55,7 +56,7 @@ void JointMoves::choose(std::size_t agent, Time delta_f, std::int32_t cost,
   const std::size_t here = place(agent, from_);
   for (const AgentGraph::Move& move : graph.moves(from_[agent])) {
     const Time sum = delta_f + move.delta_f;
-    if (sum + max_delta_f_after_[agent + 1] <= expanded_budget_) continue;
+    if (sum + max_remaining_delta_f_[agent + 1] <= expanded_budget_) continue;
     const auto there = static_cast<std::size_t>(graph.place(move.to));
     if (collides(agent, here, there)) continue;
     if (sum > budget_) {

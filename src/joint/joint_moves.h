@@ -42,8 +42,11 @@ class JointMoves {
   std::size_t place(std::size_t agent, const std::vector<Node>& nodes) const {
     return static_cast<std::size_t>(agents_[agent].place(nodes[agent]));
   }
-  void choose(std::size_t agent, Time delta_f, std::int32_t cost, std::int32_t individual_costs);
-  bool collides(std::size_t agent, std::size_t here, std::size_t there) const;
+  // `inline` raises the compiler's limits of inlining. Without it GCC calls collides() and the
+  // insertions of a successor, and a joint search takes 6 % more instructions.
+  inline void choose(std::size_t agent, Time delta_f, std::int32_t cost,
+                     std::int32_t individual_costs);
+  inline bool collides(std::size_t agent, std::size_t here, std::size_t there) const;
 
   const bool may_follow_;
   const std::span<const AgentGraph> agents_;
@@ -55,7 +58,7 @@ class JointMoves {
   std::vector<Node> from_;
   std::vector<Node> to_;
   std::vector<Time>
-      max_delta_f_after_;  // by agent: sum of the largest delta_f of this and all later agents
+      max_remaining_delta_f_;  // by agent: sum of the largest delta_f of this and all later agents
   std::vector<std::int8_t> from_on_;  // by place: the agent there now
   std::vector<std::int8_t> to_on_;    // by place: the agent that has chosen to move there
 };

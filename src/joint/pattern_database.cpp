@@ -14,7 +14,7 @@ namespace grove::detail {
 namespace {
 
 using Node = AgentGraph::Node;
-constexpr std::int64_t kSettledPerPoll = 1024;
+constexpr std::int64_t kExpandedPerPoll = 1024;
 
 // The reversed moves of an agent.
 class Backwards {
@@ -59,11 +59,11 @@ class Costs {
   // Returns false if a limit was reached.
   bool find(const Limits& limits) {
     begin(0, 0);
-    std::int64_t settled = 0;
+    std::int64_t expanded = 0;
     for (std::size_t cost = 0; cost < layers_.size(); ++cost)
       for (std::size_t next = 0; next < layers_[cost].size(); ++next) {
-        if (++settled % kSettledPerPoll == 0 && limits.stop_requested()) return false;
-        settle(layers_[cost][next], static_cast<Time>(cost));
+        if (++expanded % kExpandedPerPoll == 0 && limits.stop_requested()) return false;
+        expand(layers_[cost][next], static_cast<Time>(cost));
       }
     return true;
   }
@@ -91,7 +91,7 @@ class Costs {
       layers_.resize(static_cast<std::size_t>(cost) + 1);
     layers_[static_cast<std::size_t>(cost)].push_back(static_cast<std::uint32_t>(entry));
   }
-  void settle(std::size_t entry, Time cost) {
+  void expand(std::size_t entry, Time cost) {
     GROVE_ASSERT(costs_[entry] <= cost,
                  "an entry is in the layers of its earlier and current costs");
     if (costs_[entry] != cost) return;

@@ -6,7 +6,8 @@
 namespace grove::detail {
 
 const std::array<CounterInfo, kCounterCount> kCounters = {{
-#define GROVE_COUNTER(id, name, shown, title, meaning) {name, CounterShown::shown, title, meaning},
+#define GROVE_COUNTER(id, name, reported, title, meaning) \
+  {name, CounterReported::reported, title, meaning},
 #include "model/counters.def"
 #undef GROVE_COUNTER
 }};
@@ -34,7 +35,7 @@ Counters& Counters::operator-=(const Counters& less) {
 std::map<std::string, std::int64_t> Counters::named() const {
   std::map<std::string, std::int64_t> counts;
   for (std::size_t i = 0; i < kCounterCount; ++i)
-    if (counted_[i] && (values_[i] != 0 || kCounters[i].shown != CounterShown::kIfPositive))
+    if (counted_[i] && (values_[i] != 0 || kCounters[i].reported != CounterReported::kIfPositive))
       counts.emplace(kCounters[i].name, values_[i]);
   return counts;
 }
@@ -45,7 +46,8 @@ void add(const Counters& more, std::map<std::string, std::int64_t>& counts) {
 
 void add_missing(std::map<std::string, std::int64_t>& counts) {
   for (const CounterInfo& counter : kCounters)
-    if (counter.shown == CounterShown::kAlways) counts.try_emplace(std::string(counter.name), 0);
+    if (counter.reported == CounterReported::kAlways)
+      counts.try_emplace(std::string(counter.name), 0);
 }
 
 }  // namespace grove::detail

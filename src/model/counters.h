@@ -14,19 +14,19 @@
 namespace grove::detail {
 
 enum class Counter : std::uint8_t {
-#define GROVE_COUNTER(id, name, shown, title, meaning) id,
+#define GROVE_COUNTER(id, name, reported, title, meaning) id,
 #include "model/counters.def"
 #undef GROVE_COUNTER
 };
 
 inline constexpr std::size_t kCounterCount = 0
-#define GROVE_COUNTER(id, name, shown, title, meaning) +1
+#define GROVE_COUNTER(id, name, reported, title, meaning) +1
 #include "model/counters.def"
 #undef GROVE_COUNTER
     ;
 
 // When a counter is reported.
-enum class CounterShown : std::uint8_t {
+enum class CounterReported : std::uint8_t {
   kAlways,      // by each run with a search, even if it is 0
   kIfCounted,   // by each run with a part that counts it, even if it is 0
   kIfPositive,  // by each run in which it is not 0
@@ -34,7 +34,7 @@ enum class CounterShown : std::uint8_t {
 
 struct CounterInfo {
   std::string_view name;
-  CounterShown shown;
+  CounterReported reported;
   std::string_view title;
   std::string_view meaning;
 };

@@ -45,7 +45,7 @@ Improver::Guidance Improver::guidance() const {
     case State::kLacam:
       return Guidance::kPossible;
     case State::kGuided:
-      return Guidance::kDone;
+      return Guidance::kUsed;
     case State::kLns:
       break;
   }
@@ -100,7 +100,7 @@ bool Improver::guide(const Limits& limits) {
   }
   // Ends LaCAM if memory is short, so that the rest of the run can use it.
   if (outcome == Outcome::kStopped || rounds_without_gain >= kGuidedRoundsWithoutGain)
-    states_.enter(Lns{Guidance::kDone});
+    states_.enter(Lns{Guidance::kUsed});
   return gain;
 }
 

@@ -69,7 +69,7 @@ class Improver {
  private:
   // Whether the search can still use traffic-guided LaCAM, which it does at most once. kImpossible:
   // LaCAM is not possible or has failed.
-  enum class Guidance : std::uint8_t { kImpossible, kPossible, kDone };
+  enum class Guidance : std::uint8_t { kImpossible, kPossible, kUsed };
 
   struct Waiting {};
   struct FirstPlan {

@@ -85,8 +85,8 @@ std::vector<AgentIndex> Planner::agents_by_cost(double noise) {
 bool Planner::plan(const Limits& limits, bool has_rival) {
   using Outcome = PrioritizedPlanning::Outcome;
   Round& round = this->round();
-  const Outcome outcome = planning_.step(limits, has_rival ? round.patience : kEndless);
-  if (outcome == Outcome::kPutOff) round.patience *= 2;
+  const Outcome outcome = planning_.step(limits, has_rival ? round.label_limit : kEndless);
+  if (outcome == Outcome::kPostponed) round.label_limit *= 2;
   return outcome == Outcome::kDone;
 }
 

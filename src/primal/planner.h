@@ -74,7 +74,7 @@ class Planner {
     std::optional<Plan> adopted;  // the first round begins with it
   };
   struct Round {
-    std::int64_t patience;  // label limit of a low-level call if there is a rival
+    std::int64_t label_limit;  // label limit of a low-level call if there is a rival
     std::int64_t planning_work = 0;
     std::int64_t other_work = 0;
   };

@@ -31,7 +31,7 @@
 // *adopted*; during individual planning it waits in the planner. A plan is *expensive* if its cost
 // exceeds the sum of individual costs by a fraction of kMinLossForGuidance or more. The improver
 // begins in the state waiting if LaCAM is not possible, otherwise in the state LaCAM. In the state
-// LNS, guidance is possible after a transition from LaCAM, impossible after waiting, and done after
+// LNS, guidance is possible after a transition from LaCAM, impossible after waiting, and used after
 // guided.
 //
 // The improver has a current plan only in the states guided and LNS. As long as it has none,

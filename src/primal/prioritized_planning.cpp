@@ -74,12 +74,12 @@ std::int64_t PrioritizedPlanning::max_exact_labels() const {
 }
 
 PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
-                                                       std::int64_t patience) {
+                                                       std::int64_t max_labels) {
   if (is_done()) return Outcome::kDone;
   const AgentIndex agent = order_.agents[order_.next];
   const std::int64_t before = low_level_.expanded();
   const std::int64_t most = greedily_ ? label_limit() : std::min(label_limit(), max_exact_labels());
-  const PathQuery query{.label_limit = std::min(patience, most),
+  const PathQuery query{.label_limit = std::min(max_labels, most),
                         .reservations = &paths_.reservations(),
                         .inflation_percent = greedily_ ? kGreedPercent : 0,
                         .known_sequences_only = true};
@@ -95,7 +95,7 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
     return is_done() ? Outcome::kDone : Outcome::kWorking;
   }
   if (limits.stop_requested()) return Outcome::kStopped;
-  if (patience < most && labels >= patience) return Outcome::kPutOff;
+  if (max_labels < most && labels >= max_labels) return Outcome::kPostponed;
   if (!greedily_ && most < label_limit() && labels >= most) {
     greedily_ = true;
     return Outcome::kWorking;

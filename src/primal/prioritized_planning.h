@@ -20,9 +20,9 @@ class PrioritizedPlanning {
  public:
   enum class Outcome : std::uint8_t {
     kWorking,
-    kDone,     // all agents have a path
-    kPutOff,   // a low-level call reached `patience` and is postponed
-    kStopped,  // a limit was reached; step() may be called again
+    kDone,       // all agents have a path
+    kPostponed,  // a low-level call reached `max_labels` and is postponed
+    kStopped,    // a limit was reached; step() may be called again
   };
 
   // All references must outlive this object.
@@ -33,10 +33,10 @@ class PrioritizedPlanning {
   // Removes all paths and starts with the agent order `order`. All agents must have individual
   // paths (PrimalLowLevel::plan_individually()).
   void begin(std::vector<AgentIndex> order);
-  // Plans one agent. A low-level call that exceeds `patience` labels is postponed: the next step
+  // Plans one agent. A low-level call that exceeds `max_labels` labels is postponed: the next step
   // repeats it from the start. Must not be called after kDone.
   Outcome step(const Limits& limits,
-               std::int64_t patience = std::numeric_limits<std::int64_t>::max());
+               std::int64_t max_labels = std::numeric_limits<std::int64_t>::max());
 
   // Number of orders started so far.
   std::int64_t attempts() const { return attempts_; }

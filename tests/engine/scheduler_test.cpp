@@ -42,7 +42,7 @@ class ScriptedSource : public WorkSource {
   ScriptedSource(Script& script, const std::int64_t& effort)
       : WorkSource(script.account), script_(script), effort_(effort) {}
 
-  std::int64_t start() const override { return script_.start; }
+  std::int64_t start_effort() const override { return script_.start; }
   Claim claim() override { return script_.claim; }
   Share share(std::int64_t) const override { return script_.share; }
   bool uses_idle_time() const override { return script_.uses_idle_time; }
@@ -64,13 +64,13 @@ class SchedulerTest : public ::testing::Test {
   Scheduler& scheduler() {
     if (scheduler_) return *scheduler_;
     std::vector<Scheduler::Entry> entries;
-    const auto add = [&](Tier tier, Script& script) {
+    const auto add = [&](EffortTier tier, Script& script) {
       entries.push_back({tier, std::make_unique<ScriptedSource>(script, effort)});
     };
-    add(Tier::kTree, tree);
-    add(Tier::kPrimal, primal);
-    add(Tier::kBound, first);
-    add(Tier::kBound, second);
+    add(EffortTier::kTree, tree);
+    add(EffortTier::kPrimal, primal);
+    add(EffortTier::kBound, first);
+    add(EffortTier::kBound, second);
     scheduler_ = std::make_unique<Scheduler>(std::move(entries), bounds);
     return *scheduler_;
   }
@@ -136,10 +136,10 @@ TEST_F(SchedulerTest, TierOfBoundsEarnsOnTreeAndPrimalSearchButNotOnItself) {
   primal.share = {.wanted = 1, .cap = 1};
   second.share = first.share = {.wanted = 0.5, .cap = 0.5};
   EXPECT_NEAR(static_cast<double>(effort_beside_tree("second", 1000)), 1000, 3);
-  EXPECT_EQ(tree.account.base(), 0);
-  EXPECT_EQ(primal.account.base(), 1000);
-  EXPECT_EQ(first.account.base(), second.account.base());
-  EXPECT_NEAR(static_cast<double>(first.account.base()), 2000, 3);
+  EXPECT_EQ(tree.account.lower_tier_effort(), 0);
+  EXPECT_EQ(primal.account.lower_tier_effort(), 1000);
+  EXPECT_EQ(first.account.lower_tier_effort(), second.account.lower_tier_effort());
+  EXPECT_NEAR(static_cast<double>(first.account.lower_tier_effort()), 2000, 3);
 }
 
 TEST_F(SchedulerTest, ComponentStartsAfterSomeEffortOfLowerTiers) {
@@ -200,14 +200,14 @@ TEST_F(SchedulerTest, FloorIsBelowTheCap) {
 
 TEST(EffortAccount, DebtIsKeptOrForgiven) {
   EffortAccount keeps;
-  EffortAccount forgives({.forgives_debt = true});
-  for (EffortAccount* account : {&keeps, &forgives}) {
+  EffortAccount cancels({.cancels_debt = true});
+  for (EffortAccount* account : {&keeps, &cancels}) {
     account->spend(100);
     account->spend(10);
     account->earn(50, 1);
   }
   EXPECT_FALSE(keeps.has_credit()) << "60 are left";
-  EXPECT_TRUE(forgives.has_credit()) << "only the last 10 counted";
+  EXPECT_TRUE(cancels.has_credit()) << "only the last 10 counted";
 }
 
 TEST(EffortAccount, EffortInThisProcessIsLimitedSeparately) {

@@ -35,9 +35,9 @@ class JointWork : public WorkSource {
   JointWork(const ComponentContext& context, EffortAccount& account)
       : WorkSource(account), context_(context) {}
 
-  std::int64_t start() const override { return context_.options.tuning.joint_start_work; }
+  std::int64_t start_effort() const override { return context_.options.tuning.joint_start_work; }
   Claim claim() override { return {.is_open = !over_}; }
-  Share share(std::int64_t /*base*/) const override {
+  Share share(std::int64_t /*lower_tier_effort*/) const override {
     const double most = context_.options.tuning.joint_max_share;
     return {.wanted = most, .cap = most};
   }
@@ -120,7 +120,7 @@ class JointComponent : public Component {
  public:
   explicit JointComponent(const ComponentContext& context) : context_(context) {}
 
-  Tier tier() const override { return Tier::kBound; }
+  EffortTier tier() const override { return EffortTier::kBound; }
   std::unique_ptr<WorkSource> source(int worker) override {
     return worker == 0 ? std::make_unique<JointWork>(context_, account_) : nullptr;
   }

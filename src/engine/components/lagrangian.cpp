@@ -65,9 +65,9 @@ class PricingWork : public WorkSource {
  public:
   PricingWork(Owner& owner, EffortAccount& account) : WorkSource(account), owner_(owner) {}
 
-  std::int64_t start() const override { return owner_.start(); }
+  std::int64_t start_effort() const override { return owner_.start_effort(); }
   Claim claim() override { return owner_.claim(); }
-  Share share(std::int64_t /*base*/) const override { return owner_.share(); }
+  Share share(std::int64_t /*lower_tier_effort*/) const override { return owner_.share(); }
   std::unique_ptr<WorkItem> next() override {
     auto job = owner_.next();
     if (!job) return nullptr;
@@ -89,7 +89,7 @@ class LagrangianOwner : public Component {
         helpers_(context.ranks - 1),
         expected_work_(static_cast<std::size_t>(context.ranks)) {}
 
-  Tier tier() const override { return Tier::kBound; }
+  EffortTier tier() const override { return EffortTier::kBound; }
   std::unique_ptr<WorkSource> source(int /*worker*/) override {
     return std::make_unique<PricingWork<LagrangianOwner>>(*this, account_);
   }
@@ -106,7 +106,7 @@ class LagrangianOwner : public Component {
   void receive(int from, const ComponentMessage& message) override;
 
   const ComponentContext& context() const { return context_; }
-  std::int64_t start() const {
+  std::int64_t start_effort() const {
     return context_.options.tuning.lagrangian_start_work *
            (context_.bounds.cutoff() < kInfiniteCost ? 1 : kPatienceWithoutPlan);
   }
@@ -220,7 +220,7 @@ class LagrangianHelper : public Component {
  public:
   explicit LagrangianHelper(const ComponentContext& context) : context_(context) {}
 
-  Tier tier() const override { return Tier::kBound; }
+  EffortTier tier() const override { return EffortTier::kBound; }
   std::unique_ptr<WorkSource> source(int /*worker*/) override {
     return std::make_unique<PricingWork<LagrangianHelper>>(*this, account_);
   }
@@ -235,7 +235,7 @@ class LagrangianHelper : public Component {
   void receive(int from, const ComponentMessage& message) override;
 
   const ComponentContext& context() const { return context_; }
-  std::int64_t start() const { return 0; }
+  std::int64_t start_effort() const { return 0; }
   Claim claim() const { return {.is_urgent = is_asked_}; }
   Share share() const { return {}; }
   const Multipliers& multipliers() const { return helper_->multipliers(); }

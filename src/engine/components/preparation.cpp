@@ -34,7 +34,7 @@ class TreePreparation : public Component {
  public:
   explicit TreePreparation(TreeSupply& trees) : trees_(trees) {}
 
-  Tier tier() const override { return Tier::kPrimal; }
+  EffortTier tier() const override { return EffortTier::kPrimal; }
   std::unique_ptr<WorkSource> source(int /*worker*/) override {
     return std::make_unique<PreparationWork>(trees_, account_);
   }

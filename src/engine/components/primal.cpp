@@ -56,12 +56,12 @@ class PrimalWork : public WorkSource {
     account_->earn(root, std::min(kMaxShare, max_primal_share(root, false, tuning())));
   }
 
-  std::int64_t start() const override { return kStartWork; }
+  std::int64_t start_effort() const override { return kStartWork; }
   Claim claim() override {
     const PrimalSearch& primal = updated_search();
     return {.is_open = !primal.optimal(), .is_urgent = primal.expects_plan()};
   }
-  Share share(std::int64_t base) const override;
+  Share share(std::int64_t lower_tier_effort) const override;
   std::unique_ptr<WorkItem> next() override;
   bool pays() const override { return !search_->expects_plan(); }
   void add_counts(Counters& counters) const override;
@@ -125,7 +125,7 @@ PrimalSearch& PrimalWork::updated_search() {
   return *search_;
 }
 
-Share PrimalWork::share(std::int64_t base) const {
+Share PrimalWork::share(std::int64_t lower_tier_effort) const {
   const Cost lower_bound = context_.bounds.lower_bound();
   const Cost cutoff = context_.bounds.cutoff();
   const bool gap_is_large =
@@ -134,7 +134,7 @@ Share PrimalWork::share(std::int64_t base) const {
   const bool is_dominated = context_.nodes.frontier.bound() < lower_bound;
   return {.wanted = wanted_,
           .floor = is_dominated || gap_is_large ? tuning().primal_min_share_dominated : 0,
-          .cap = max_primal_share(base, gap_is_large, tuning())};
+          .cap = max_primal_share(lower_tier_effort, gap_is_large, tuning())};
 }
 
 std::unique_ptr<WorkItem> PrimalWork::next() {
@@ -156,10 +156,10 @@ class PrimalComponent : public Component {
  public:
   explicit PrimalComponent(const ComponentContext& context) : context_(context) {}
 
-  Tier tier() const override { return Tier::kPrimal; }
+  EffortTier tier() const override { return EffortTier::kPrimal; }
   std::unique_ptr<WorkSource> source(int worker) override {
     return std::make_unique<PrimalWork>(
-        context_, std::make_unique<EffortAccount>(EffortAccount::Terms{.forgives_debt = true}),
+        context_, std::make_unique<EffortAccount>(EffortAccount::Terms{.cancels_debt = true}),
         worker);
   }
 

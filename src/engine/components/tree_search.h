@@ -19,7 +19,7 @@ class TreeSearch : public Component {
  public:
   explicit TreeSearch(const ComponentContext& context);
 
-  Tier tier() const override { return Tier::kTree; }
+  EffortTier tier() const override { return EffortTier::kTree; }
   std::unique_ptr<WorkSource> source(int worker) override;
   bool has_work() const override;
   void add_counts(Counters& counters) const override;
