@@ -63,11 +63,11 @@ class CoresWork : public WorkSource {
   CoresWork(const ComponentContext& context, EffortAccount& account)
       : WorkSource(account), context_(context) {}
 
-  std::int64_t start() const override { return context_.options.tuning.cores_start_work; }
+  std::int64_t start_effort() const override { return context_.options.tuning.cores_start_work; }
   Claim claim() override { return {.is_open = !over_}; }
-  Share share(std::int64_t base) const override {
+  Share share(std::int64_t lower_tier_effort) const override {
     const Tuning& tuning = context_.options.tuning;
-    return {.wanted = wanted(base), .floor = tuning.cores_min_share, .cap = tuning.cores_max_share};
+    return {.wanted = wanted(lower_tier_effort), .floor = tuning.cores_min_share, .cap = tuning.cores_max_share};
   }
   bool uses_idle_time() const override { return false; }
   std::unique_ptr<WorkItem> next() override;
@@ -93,7 +93,7 @@ class CoresWork : public WorkSource {
     std::int64_t work = 0;
   };
   Progress run();
-  double wanted(std::int64_t base) const;
+  double wanted(std::int64_t lower_tier_effort) const;
 
   const ComponentContext& context_;
   bool over_ = false;
@@ -147,10 +147,10 @@ CoresWork::Progress CoresWork::run() {
   return progress;
 }
 
-double CoresWork::wanted(std::int64_t base) const {
+double CoresWork::wanted(std::int64_t lower_tier_effort) const {
   const Cost cutoff = context_.bounds.cutoff();
   const Cost bound = context_.bounds.lower_bound();
-  others_rate_.update(base, bound);
+  others_rate_.update(lower_tier_effort, bound);
   rate_.update(work_, proven_);
   if (proven_ >= bound) return context_.options.tuning.cores_max_share;
   if (cutoff >= kInfiniteCost || proven_ == 0) return 1;
@@ -163,7 +163,7 @@ class CoresComponent : public Component {
  public:
   explicit CoresComponent(const ComponentContext& context) : context_(context) {}
 
-  Tier tier() const override { return Tier::kBound; }
+  EffortTier tier() const override { return EffortTier::kBound; }
   std::unique_ptr<WorkSource> source(int worker) override {
     return worker == 0 ? std::make_unique<CoresWork>(context_, account_) : nullptr;
   }
