@@ -10,9 +10,8 @@
 //   (g_t / r_t) / (g_c / r_c)            otherwise, within cores_min_share .. cores_max_share
 //
 // where g is the gap between the cost of the incumbent and a bound (global: t, cores: c), and r is
-// the rate at which the bound has risen over about the latter half of the effort: the quotient
-// compares the efforts after which both would close the gap if they went on as they did of late. 1
-// without an incumbent.
+// the rate at which the bound has risen over about the latter half of the effort. g / r estimates
+// the effort that is left until the gap is closed. Without an incumbent the share is 1.
 //
 // It is one sequential search; only worker 0 of the run performs it.
 #include <algorithm>
