@@ -128,10 +128,10 @@ void TextLog::head(const LogHead& h) {
   sink_.line(
       "First column: source of a new incumbent (* tree search, H prioritised planning, C LaCAM,");
   sink_.line(
-      "L large neighbourhood search, J joint search, U unsatisfiable cores, S start plan); else B if "
-      "the lower bound rose;");
+      "L large neighbourhood search, J joint search, U unsatisfiable cores, S start plan); else B if");
   sink_.line(
-      "else T for a new tree. expanded, open: constraint-tree nodes expanded and still open.");
+      "the lower bound rose; else T for a new tree. expanded, open: constraint-tree nodes expanded");
+  sink_.line("and still open.");
   sink_.line("lower bound: no plan costs less. incumbent: cost of the best plan so far.");
   sink_.line("gap = (incumbent - lower bound) / lower bound, directly comparable with omega.");
   sink_.line();
