@@ -27,6 +27,12 @@
 // a soft literal; it is false only if within_a(e) is, and x_a counts both.
 // The sum of the least costs plus `raised` is therefore a lower bound, after each core.
 //
+// *Groups.* Let S be a set of agents such that each core so far depends on agents of S only, or on
+// none of them. The steps above then prove (1) for the sum over S, with the increases by the cores
+// of S and the soft literals of S: S costs at least that much more than the sum of its least costs.
+// In the other direction, x_a + x_b + ... >= k excludes all i + j + ... = k - 1 with x_a <= i and
+// x_b <= j and ...; each such clause holds by itself, so that some of them may be left out.
+//
 // *Cutoff.* Agent a of a plan that costs less than the cutoff has an excess of at most E = cutoff -
 // 1 - sum of least costs. If within_a(e) with e >= E is in a core, it becomes a hard clause instead,
 // which holds for all plans below the cutoff; so does the bound from then on. (The cutoff only
@@ -54,6 +60,7 @@ constexpr int kConflictsPerStep = 300;
 constexpr int kConflictsToMinimize = 200;
 constexpr int kConflictsToExhaust = 300;
 constexpr int kRetries = 4;
+constexpr int kMaxExcessClauses = 100;  // of a statement of add()
 constexpr std::size_t kMaxNodes = std::size_t{1} << 21;  // of one agent's graph
 
 }  // namespace
@@ -280,6 +287,7 @@ CoreSearch::Soft CoreSearch::count_soft(std::size_t index, std::size_t count) {
 
 // Replaces the core by further soft literals.
 CoreSearch::Outcome CoreSearch::relax() {
+  connect_core();
   if (violated_ < core_.size())
     deferred_.push_back(count_soft(counts_.size() - 1, violated_));
   for (const Soft& soft : core_) {
@@ -295,12 +303,59 @@ CoreSearch::Outcome CoreSearch::relax() {
   return Outcome::kWorking;
 }
 
+// Joins the components of the agents of the core.
+void CoreSearch::connect_core() {
+  CoreComponent joined{{}, static_cast<Cost>(violated_)};
+  for (const AgentIndex agent : agents_of(core_)) {
+    const AgentIndex component = agents_[agent].component;
+    if (component < 0) {
+      joined.agents.push_back(agent);
+      continue;
+    }
+    CoreComponent& old = components_[component];
+    joined.raised += std::exchange(old.raised, 0);
+    joined.agents.insert(joined.agents.end(), old.agents.begin(), old.agents.end());
+    old.agents.clear();
+  }
+  std::ranges::sort(joined.agents);
+  const auto number = static_cast<AgentIndex>(components_.size());
+  for (const AgentIndex agent : joined.agents) agents_[agent].component = number;
+  GROVE_CHECK(std::ranges::adjacent_find(joined.agents) == joined.agents.end(),
+              "each agent is in one component");
+  if (!depends_on_cutoff_ && joined.agents.size() > 1 && joined.agents.size() <= kMaxGroup)
+    excesses_.push_back({joined.agents, joined.raised});
+  components_.push_back(std::move(joined));
+}
+
+void CoreSearch::add(const GroupExcess& excess) {
+  if (!is_set_up() || excess.excess >= kInfiniteCost) return;
+  std::vector<Literal> clause;
+  int clauses = 0;
+  // Excludes the assignments in which the agents from `agent` on cost at most `rest` more together.
+  const auto exclude = [&](auto& self, std::size_t agent, Time rest) -> void {
+    PathClauses& clauses_of_agent = clauses_of(excess.agents[agent]);
+    const bool is_last = agent + 1 == excess.agents.size();
+    for (Time own = is_last ? rest : 0; own <= rest && clauses < kMaxExcessClauses; ++own) {
+      clause.push_back(-clauses_of_agent.within(own));
+      if (is_last) {
+        solver_.add(clause);
+        ++clauses;
+      } else {
+        self(self, agent + 1, rest - own);
+      }
+      clause.pop_back();
+    }
+  };
+  exclude(exclude, 0, static_cast<Time>(excess.excess) - 1);
+}
+
 // Lets the agent cost up to its least cost + `excess` at a price.
 bool CoreSearch::raise(AgentIndex index, Time excess) {
   Agent& agent = agents_[index];
   if (cutoff_ < kInfiniteCost && excess > cutoff_ - 1 - least_sum_) {
     solver_.add({agent.clauses->within(excess - 1)});
     agent.is_limited = true;
+    depends_on_cutoff_ = true;
     return true;
   }
   const std::int64_t visited = agent.graph->visited();

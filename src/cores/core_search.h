@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "conflicts/conflict.h"
@@ -21,6 +22,7 @@
 #include "planning/conflict_avoidance_table.h"
 #include "planning/free_order_sipp.h"
 #include "planning/problem.h"
+#include "search/covering.h"
 #include "search/techniques.h"
 
 namespace grove::detail {
@@ -45,6 +47,16 @@ class CoreSearch {
 
   // Works for about a millisecond, or for the duration of a step of the SAT solver.
   Outcome step(Cost cutoff);
+
+  // Adds a proven statement about all plans: `excess.agents` together cost at least `excess.excess`
+  // more than the sum of their least costs. Ignored before all agents are planned, i.e. while
+  // is_set_up() is false.
+  void add(const GroupExcess& excess);
+  bool is_set_up() const { return phase_ != Phase::kSetUp; }
+  // Returns the statements of this kind that were proven since the last call, about groups of at
+  // most kMaxGroup agents. They hold for all plans, whatever they cost.
+  std::vector<GroupExcess> take_excesses() { return std::exchange(excesses_, {}); }
+  static constexpr std::size_t kMaxGroup = 10;
 
   // Proven: no plan that costs less than the cutoff of the last step costs less than this.
   Cost lower_bound() const { return lower_bound_; }
@@ -76,6 +88,7 @@ class CoreSearch {
     std::vector<PathGraph::Node> walk = {};
     bool has_path = true;  // false: the model says nothing about it
     bool is_limited = false;  // a hard clause limits its cost
+    AgentIndex component = -1;  // index in components_; -1: in no core yet
   };
 
   Outcome set_up();
@@ -83,10 +96,17 @@ class CoreSearch {
   Outcome minimize();
   Outcome exhaust();
   Outcome relax();
+  void connect_core();
 
   struct Count {
     Totalizer totalizer;
     std::vector<AgentIndex> agents;  // on which its inputs depend
+  };
+
+  // Agents that are connected by cores.
+  struct CoreComponent {
+    std::vector<AgentIndex> agents;
+    Cost raised = 0;  // by the cores of these agents
   };
 
   SatSolver::Result solve(std::span<const Soft> assumed, int max_conflicts);
@@ -121,6 +141,9 @@ class CoreSearch {
   std::size_t next_in_core_ = 0;
   int retries_ = 0;
   std::size_t violated_ = 0;  // at least this many of core_ are violated
+  std::vector<CoreComponent> components_;
+  std::vector<GroupExcess> excesses_;  // see take_excesses()
+  bool depends_on_cutoff_ = false;     // a hard clause was derived from the cutoff
   Phase phase_ = Phase::kSetUp;
   Cost cutoff_ = kInfiniteCost;
   Cost least_sum_ = 0;

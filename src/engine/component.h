@@ -3,6 +3,7 @@
 // recipe for a new component is in src/README.md.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -190,6 +191,10 @@ class SharedResults {
     const std::lock_guard lock(mutex_);
     return dual_solution_;
   }
+  // The first tree, which holds all plans if the policy is free; nullptr: none of its nodes was
+  // expanded yet. Must outlive this object.
+  const Tree* first_tree() const { return first_tree_; }
+  void set_first_tree(const Tree& tree) { first_tree_ = &tree; }
   void set_dual_solution(std::shared_ptr<const DualSolution> solution) {
     const std::lock_guard lock(mutex_);
     dual_solution_ = std::move(solution);
@@ -198,6 +203,7 @@ class SharedResults {
  private:
   mutable std::mutex mutex_;
   std::shared_ptr<const DualSolution> dual_solution_;
+  std::atomic<const Tree*> first_tree_ = nullptr;
 };
 
 // Data and interfaces that the engine gives to each component. All references outlive the

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "model/check.h"
 #include "model/omega.h"
@@ -42,7 +44,7 @@ class Search {
   Outcome run(Cost cutoff, int steps) {
     return run(cutoff, steps, [](const CoreSearch&) {});
   }
-  const CoreSearch& operator*() const { return search_; }
+  CoreSearch& operator*() { return search_; }
   const CoreSearch* operator->() const { return &search_; }
 
  private:
@@ -51,6 +53,16 @@ class Search {
   const AgentStopsCache stops_;
   CoreSearch search_;
 };
+
+Cost least_cost(const Instance& instance, AgentIndex agent) {
+  const Limits limits;
+  const DistanceFields distances(instance, limits);
+  AgentStops stops(instance, distances, agent);
+  SequenceStages goals(stops, SequenceClass{});
+  Path path;
+  FreeOrderSipp(instance.world()).find(goals, PathQuery{}, limits, path);
+  return static_cast<Cost>(path.size()) - 1;
+}
 
 Techniques some_splits(std::uint64_t seed) {
   Techniques techniques;
@@ -141,6 +153,41 @@ TEST(CoreSearch, AcceptsAFallingCutoff) {
     EXPECT_EQ(outcome, Outcome::kSolved);
     EXPECT_EQ(search->lower_bound(), optimum);
   }
+}
+
+// Statements about groups hold in optimal plans, and a search that is given them finds the same.
+TEST(CoreSearch, StatementsAboutGroupsAreTrue) {
+  int statements = 0;
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(200));
+       ++seed) {
+    SCOPED_TRACE(seed);
+    const Instance instance = tiny_instance(seed).build();
+    const oracle::Answer truth = oracle::solve_jointly(instance);
+    if (!truth.plan) continue;
+    Search search(instance, some_splits(seed));
+    std::vector<GroupExcess> found;
+    search.run(kInfiniteCost, 1000, [&](CoreSearch& so_far) {
+      for (const GroupExcess& excess : so_far.take_excesses()) found.push_back(excess);
+    });
+    for (const GroupExcess& excess : found) {
+      Cost cost = 0;
+      for (const AgentIndex agent : excess.agents)
+        cost += truth.plan->agents[agent].cost - least_cost(instance, agent);
+      ASSERT_GE(cost, excess.excess);
+      ++statements;
+    }
+    Search again(instance, some_splits(seed + 1));
+    Outcome outcome = Outcome::kWorking;
+    bool is_told = false;
+    while (outcome == Outcome::kWorking) {
+      if (again->is_set_up() && !std::exchange(is_told, true))
+        for (const GroupExcess& excess : found) (*again).add(excess);
+      outcome = again.run(truth.plan->cost + 1, 1);
+    }
+    EXPECT_EQ(outcome, Outcome::kSolved);
+    EXPECT_EQ(again->lower_bound(), truth.plan->cost);
+  }
+  EXPECT_GT(statements, 20);
 }
 
 TEST(CoreSearch, StopsAtItsMemoryLimit) {

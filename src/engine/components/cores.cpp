@@ -13,18 +13,33 @@
 // the rate at which the bound has risen over about the latter half of the effort. g / r estimates
 // the effort that is left until the gap is closed. Without an incumbent the share is 1.
 //
-// It is one sequential search; only worker 0 of the run performs it.
+// *Statements about groups.* "These agents together cost at least k more than individually" holds at
+// the root of the only tree, where no agent has a constraint. Both searches prove such statements.
+// The tree search keeps them in its cache, where they raise the bounds of all nodes at which none of
+// these agents has a constraint; in a distributed run they are sent to the other ranks. They are
+// exchanged in commit(), at the same point of every deterministic run.
+//
+// *Threads.* It is one sequential search, which one worker performs: worker 0 if there is one thread
+// or the run is deterministic, else worker 1. With T threads, that worker alone cannot give w units
+// per unit of effort of all T workers if w is large. It gives the part f = min(1, T w / (1 + w)) of
+// its time, i.e. f / (1 - f) units per unit of its own other effort.
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <memory>
+#include <set>
+#include <vector>
 
 #include "engine/components.h"
 #include "model/assert.h"
 #ifdef GROVE_WITH_CADICAL
 #include "cores/core_search.h"
+#include "search/root_excesses.h"
 
 namespace grove::detail {
 namespace {
+
+constexpr double kMaxPart = 0.99;  // of a worker's time
 
 constexpr std::size_t kMaxCoresBytes = std::size_t{4} << 30;
 
@@ -64,10 +79,7 @@ class CoresWork : public WorkSource {
 
   std::int64_t start_effort() const override { return context_.options.tuning.cores_start_work; }
   Claim claim() override { return {.is_open = !over_}; }
-  Share share(std::int64_t lower_tier_effort) const override {
-    const Tuning& tuning = context_.options.tuning;
-    return {.wanted = wanted(lower_tier_effort), .floor = tuning.cores_min_share, .cap = tuning.cores_max_share};
-  }
+  Share share(std::int64_t lower_tier_effort) const override;
   bool uses_idle_time() const override { return false; }
   std::unique_ptr<WorkItem> next() override;
 
@@ -92,6 +104,7 @@ class CoresWork : public WorkSource {
     std::int64_t work = 0;
   };
   Progress run();
+  void exchange_excesses();
   double wanted(std::int64_t lower_tier_effort) const;
 
   const ComponentContext& context_;
@@ -101,6 +114,8 @@ class CoresWork : public WorkSource {
   std::atomic<std::int64_t> work_{0};
   mutable RiseRate others_rate_;
   mutable RiseRate rate_;
+  std::int64_t read_at_ = 0;  // effort at which the statements of the tree search were read
+  std::set<std::vector<AgentIndex>> known_;  // groups of these statements
   Counts counts_;
 };
 
@@ -117,6 +132,7 @@ class CoresWork::Item : public WorkItem {
     SharedBounds& bounds = work_.context_.bounds;
     if (progress_.plan) bounds.post(std::move(*progress_.plan), PlanSource::kCores);
     bounds.prove(progress_.proven, ComponentId::kCores);
+    work_.exchange_excesses();
   }
 
  private:
@@ -146,6 +162,32 @@ CoresWork::Progress CoresWork::run() {
   return progress;
 }
 
+// Reads the statements of the tree search when its effort has doubled.
+void CoresWork::exchange_excesses() {
+  const Tree* const tree = context_.results.first_tree();
+  if (!search_ || !search_->is_set_up() || tree == nullptr) return;
+  std::vector<GroupExcess> found = search_->take_excesses();
+  const bool is_due = work_ >= 2 * read_at_;
+  if (found.empty() && !is_due) return;
+  const std::shared_ptr<SharedCache> cache = context_.memory.cache();
+  RootExcesses at_root(*cache, *tree);
+  at_root.add(found);
+  if (!is_due) return;
+  read_at_ = work_;
+  for (const GroupExcess& excess : at_root.all())
+    if (known_.insert(excess.agents).second) search_->add(excess);
+}
+
+Share CoresWork::share(std::int64_t lower_tier_effort) const {
+  const Tuning& tuning = context_.options.tuning;
+  const double of_run = std::clamp(wanted(lower_tier_effort), tuning.cores_min_share,
+                                   std::max(tuning.cores_min_share, tuning.cores_max_share));
+  const int threads = context_.options.deterministic ? 1 : context_.options.threads;
+  const double part = std::min(kMaxPart, threads * of_run / (1 + of_run));
+  const double own = threads == 1 ? of_run : part / (1 - part);
+  return {.wanted = own, .cap = own};
+}
+
 double CoresWork::wanted(std::int64_t lower_tier_effort) const {
   const Cost cutoff = context_.bounds.cutoff();
   const Cost bound = context_.bounds.lower_bound();
@@ -164,7 +206,9 @@ class CoresComponent : public Component {
 
   EffortTier tier() const override { return EffortTier::kBound; }
   std::unique_ptr<WorkSource> source(int worker) override {
-    return worker == 0 ? std::make_unique<CoresWork>(context_, account_) : nullptr;
+    const bool is_alone = context_.options.deterministic || context_.options.threads == 1;
+    if (worker != (is_alone ? 0 : 1)) return nullptr;
+    return std::make_unique<CoresWork>(context_, account_);
   }
 
  private:

@@ -205,6 +205,7 @@ void TreeSearch::finish(const NodePtr& node, Expansion expansion, int worker) {
     return;
   }
   ++context_.nodes.expanded;
+  if (node->tree().number == 0) context_.results.set_first_tree(node->tree());
   context_.observer.expanded(node, expansion, worker);
   for (const NodePtr& child : expansion.children) {
     GROVE_CHECK(child->bound() >= node->bound(), "bounds do not fall from a node to its children");
