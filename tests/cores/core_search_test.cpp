@@ -178,9 +178,9 @@ TEST(CoreSearch, StatementsAboutGroupsAreTrue) {
     }
     Search again(instance, some_splits(seed + 1));
     Outcome outcome = Outcome::kWorking;
-    bool is_told = false;
+    bool is_added = false;
     while (outcome == Outcome::kWorking) {
-      if (again->is_set_up() && !std::exchange(is_told, true))
+      if (again->is_set_up() && !std::exchange(is_added, true))
         for (const GroupExcess& excess : found) (*again).add(excess);
       outcome = again.run(truth.plan->cost + 1, 1);
     }
