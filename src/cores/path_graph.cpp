@@ -84,7 +84,7 @@ void PathGraph::expand(Node node, StageId stage) {
   if (on_the_way) all = reach(from.state, stage, then, kOnTheWay);
   for (const State state : world_.moves(from.state)) {
     const bool enters = world_.place(state) != world_.place(from.state);
-    if (!on_the_way && enters) continue;
+    if ((!on_the_way && enters) || is_foreign_work(state)) continue;
     const bool known = goals_.on_arrival(stage, state, [&](StageId next) {
       all &= reach(state, next, then, from.arrival);
       if (enters) all &= reach(state, next, then, then);
@@ -92,6 +92,15 @@ void PathGraph::expand(Node node, StageId stage) {
     all &= known;
   }
   nodes_[node].has_all_successors = all;
+}
+
+// Another agent's task has the same effect as a wait, but no plan may contain it. (Where the agent
+// has a stop on the place, on_arrival() does not refuse these states.)
+bool PathGraph::is_foreign_work(State state) const {
+  if (!world_.is_working(state)) return false;
+  const AgentStops& stops = goals_.stops();
+  const std::vector<TaskIndex>& own = stops.instance().agent(stops.agent()).stops;
+  return std::ranges::find(own, world_.work(state).task) == own.end();
 }
 
 bool PathGraph::reach(State state, StageId stage, Time time, Time arrival) {

@@ -97,6 +97,7 @@ class PathGraph {
   void expand(Node node, StageId stage);
   // Returns false if the node might be added by a later call of grow().
   bool reach(State state, StageId stage, Time time, Time arrival);
+  bool is_foreign_work(State state) const;
   std::int32_t stage_number(StageId stage);
   void find_excesses();
 
