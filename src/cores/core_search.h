@@ -4,23 +4,17 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
-#include <memory>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
-#include "conflicts/conflict.h"
-#include "cores/path_clauses.h"
-#include "cores/path_graph.h"
+#include "cores/core_components.h"
+#include "cores/path_model.h"
 #include "cores/sat_solver.h"
 #include "cores/totalizer.h"
 #include "model/limits.h"
 #include "model/plan.h"
 #include "planning/agent_stops_cache.h"
-#include "planning/conflict_avoidance_table.h"
-#include "planning/free_order_sipp.h"
 #include "planning/problem.h"
 #include "search/covering.h"
 #include "search/techniques.h"
@@ -28,9 +22,8 @@
 namespace grove::detail {
 
 // Searches for an optimal plan by core-guided MaxSAT (OLL: Andres et al. 2012; Morgado, Dodaro and
-// Marques-Silva 2014), with lazily added conflicts as in Lazy CBS (Gange, Harabor and Stuckey, ICAPS
-// 2019). The proof is at the head of core_search.cpp. One thread at a time. Repeatable: results
-// depend only on the arguments, unless a limit is reached.
+// Marques-Silva 2014). The proof is at the head of core_search.cpp. One thread at a time.
+// Repeatable: results depend only on the arguments, unless a limit is reached.
 class CoreSearch {
  public:
   enum class Outcome : std::uint8_t {
@@ -40,36 +33,34 @@ class CoreSearch {
     kStopped,    // a limit was reached
   };
 
-  // All arguments must outlive this object. `stops` is copied. Uses at most about `max_bytes`.
+  // All arguments must outlive this object, except `stops`, which is copied. Uses at most about
+  // `max_bytes`.
   CoreSearch(const Problem& problem, const AgentStopsCache& stops, Techniques techniques,
              std::size_t max_bytes, const Limits& limits);
-  ~CoreSearch();
 
-  // Works for about a millisecond, or for the duration of a step of the SAT solver.
+  // Plans an agent, or calls the SAT solver for a limited number of conflicts. `cutoff`: plans of
+  // this cost or more are of no interest; must not rise from call to call.
   Outcome step(Cost cutoff);
 
-  // Adds a proven statement about all plans: `excess.agents` together cost at least `excess.excess`
-  // more than the sum of their least costs. Ignored before all agents are planned, i.e. while
-  // is_set_up() is false.
-  void add(const GroupExcess& excess);
+  // True once all agents are planned.
   bool is_set_up() const { return phase_ != Phase::kSetUp; }
-  // Returns the statements of this kind that were proven since the last call, about groups of at
-  // most kMaxGroup agents. They hold for all plans, whatever they cost.
-  std::vector<GroupExcess> take_excesses() { return std::exchange(excesses_, {}); }
-  static constexpr std::size_t kMaxGroup = 10;
+  // Adds a proven statement about all plans: `excess.agents` together cost at least `excess.excess`
+  // more than the sum of their least costs. Requires is_set_up().
+  void add(const GroupExcess& excess);
+  // See CoreComponents::take_excesses().
+  std::vector<GroupExcess> take_excesses() { return components_.take_excesses(); }
 
   // Proven: no plan that costs less than the cutoff of the last step costs less than this.
   Cost lower_bound() const { return lower_bound_; }
   // The optimal plan, once one was found.
   const std::optional<Plan>& plan() const { return plan_; }
 
-  // Effort so far (model/effort.h), number of cores, of conflicts of the SAT solver, and of conflicts
-  // of paths that became clauses.
-  std::int64_t work() const;
+  // Effort so far (model/effort.h), and numbers of cores, of conflicts of the SAT solver, and of
+  // conflicts of paths that became clauses.
+  std::int64_t work() const { return model_.work(); }
   std::int64_t cores() const { return cores_; }
-  std::int64_t sat_conflicts() const { return solver_.conflicts(); }
-  std::int64_t path_conflicts() const { return path_conflicts_; }
-  std::size_t bytes() const;
+  std::int64_t sat_conflicts() const { return model_.sat_conflicts(); }
+  std::int64_t path_conflicts() const { return model_.path_conflicts(); }
 
  private:
   enum class Phase : std::uint8_t { kSetUp, kSolve, kMinimize, kExhaust };
@@ -82,13 +73,17 @@ class CoreSearch {
     std::int32_t totalizer = -1;
     std::size_t count = 0;
   };
-  struct Agent {
-    std::unique_ptr<PathGraph> graph;
-    std::unique_ptr<PathClauses> clauses = nullptr;  // nullptr until a conflict needs them
-    std::vector<PathGraph::Node> walk = {};
-    bool has_path = true;  // false: the model says nothing about it
-    bool is_limited = false;  // a hard clause limits its cost
-    AgentIndex component = -1;  // index in components_; -1: in no core yet
+  // A totalizer, and the agents on which its inputs depend.
+  struct Count {
+    Totalizer totalizer;
+    std::vector<AgentIndex> agents;
+  };
+  // The core that is being minimised or exhausted.
+  struct Core {
+    std::vector<Soft> softs;
+    std::size_t next = 0;      // index of the literal to leave out next
+    int retries = 0;           // models with new conflicts that are left for this literal
+    std::size_t violated = 0;  // at least this many of `softs` are false in every plan
   };
 
   Outcome set_up();
@@ -96,63 +91,33 @@ class CoreSearch {
   Outcome minimize();
   Outcome exhaust();
   Outcome relax();
-  void connect_core();
-
-  struct Count {
-    Totalizer totalizer;
-    std::vector<AgentIndex> agents;  // on which its inputs depend
-  };
-
-  // Agents that are connected by cores.
-  struct CoreComponent {
-    std::vector<AgentIndex> agents;
-    Cost raised = 0;  // by the cores of these agents
-  };
+  Outcome prove_cutoff();
+  void accept_core();
+  PathModel::Outcome raise(const Soft& soft);
 
   SatSolver::Result solve(std::span<const Soft> assumed, int max_conflicts);
-  std::vector<AgentIndex> agents_of(std::span<const Soft> softs) const;
-  Soft count_soft(std::size_t index, std::size_t count);
-  std::vector<Soft> failed(std::span<const Soft> assumed) const;
-  std::vector<PathGraph::Node> walk_with_fewest_conflicts(const PathGraph& graph) const;
-  void read_walks();
   std::int64_t add_conflicts();
-  void add_split(const Conflict& conflict, const Split& split);
-  PathClauses& clauses_of(AgentIndex agent);
-  bool raise(AgentIndex agent, Time excess);
-  Path path_of(const Agent& agent) const;
-  Plan make_plan() const;
+  void add_new_agents();
+  std::vector<AgentIndex> agents_of(std::span<const Soft> softs) const;
+  std::vector<Soft> failed(std::span<const Soft> assumed);
+  Soft agent_soft(AgentIndex agent, Time excess);
+  Soft count_soft(std::size_t totalizer, std::size_t count);
+  Outcome stopped_or(Outcome outcome) const;
 
-  const Problem& problem_;
-  const Instance& instance_;
-  const Techniques techniques_;
   const std::size_t max_bytes_;
   const Limits& limits_;
-  AgentStopsCache stops_;
-  FreeOrderSipp low_level_;
-  ConflictFinder finder_;
-  ConflictAvoidanceTable first_paths_;
-  SatSolver solver_;
-  PlaceConflicts place_conflicts_{solver_};
-  std::vector<Agent> agents_;
-  std::deque<Count> counts_;
+  PathModel model_;
+  std::vector<Count> counts_;
   std::vector<Soft> active_;    // assumed
   std::vector<Soft> deferred_;  // from relaxed cores; assumed after the next model
-  std::vector<Soft> core_;
-  std::size_t next_in_core_ = 0;
-  int retries_ = 0;
-  std::size_t violated_ = 0;  // at least this many of core_ are violated
-  std::vector<CoreComponent> components_;
-  std::vector<GroupExcess> excesses_;  // see take_excesses()
-  bool depends_on_cutoff_ = false;     // a hard clause was derived from the cutoff
+  Core core_;
+  CoreComponents components_;
+  bool depends_on_cutoff_ = false;  // a hard clause was derived from the cutoff
   Phase phase_ = Phase::kSetUp;
   Cost cutoff_ = kInfiniteCost;
-  Cost least_sum_ = 0;
   Cost lower_bound_ = 0;
   std::optional<Plan> plan_;
-  std::vector<Path> paths_;  // by AgentIndex
   std::int64_t cores_ = 0;
-  std::int64_t path_conflicts_ = 0;
-  std::int64_t work_ = 0;
 };
 
 }  // namespace grove::detail

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+// *Formula.* The clauses are those of the agents' paths (path_clauses.cpp), those that keep agents
+// from being on one place (place_conflicts.cpp), those of add() and limit(), and for conflicts that
+// models had:
+//
+//   satisfies_a(c) or satisfies_b(d)               for each split (c, d) of a conflict
+//   satisfies_a(RestBy) -> satisfies_b(bar)        for the bar that RestBy implies for other agents
+//
+// *Claim: for each valid plan within the limits of limit() there is an assignment that satisfies all
+// clauses, in which within_a(e) is true exactly if agent a costs at most its least cost + e.*
+// *Proof.* Take for each agent the assignment of its path (path_clauses.h), in which satisfies(c) is
+// true exactly if the path satisfies c. A valid plan satisfies at least one constraint of each split
+// (splits.h), and if an agent comes to rest on a place by time T, no other agent is there from T on.
+// A statement that agents a, b, ... together cost at least k more than individually excludes, for
+// all i + j + ... = k - 1, that a costs at most i more, b at most j more, and so on. Each of these
+// clauses holds by itself, so some of them may be left out.
+//
+// *Agents that are not needed.* solve() assumes that the agents on which the assumptions do not
+// depend are not active, so that the solver assigns their literals by propagation. *Claim: this does
+// not change whether there is a model.* *Proof.* Change a model as follows for each such agent:
+// within(e), all nodes and presences, and the literals that count its presences (place_conflicts,
+// traversal_clauses) become false, satisfies(RestBy) false, the other satisfies(c) true, and the
+// outputs of totalizers over its within(e) true, which no assumption denies. A clause that requires
+// within(e) or satisfies(RestBy) of the agent could be violated: the first are only those of
+// limit(), whose agents are always needed, and a split has RestBy only together with NoRestBy of
+// the same agent, which is true.
+#include "cores/path_model.h"
+
+#include <algorithm>
+
+#include "model/assert.h"
+#include "model/effort.h"
+#include "search/splits.h"
+
+namespace grove::detail {
+namespace {
+
+constexpr std::size_t kMaxNodes = std::size_t{1} << 21;  // of one agent's graph
+constexpr int kMaxExcessClauses = 100;                   // of a statement of add()
+
+}  // namespace
+
+PathModel::PathModel(const Problem& problem, const AgentStopsCache& stops, Techniques techniques,
+                     const Limits& limits)
+    : problem_(problem),
+      techniques_(techniques),
+      limits_(limits),
+      stops_(stops),
+      low_level_(problem.instance.world()),
+      finder_(problem.instance.world(), problem.instance.may_follow()),
+      first_paths_(problem.instance.world()),
+      solver_(limits),
+      paths_(static_cast<std::size_t>(problem.instance.agent_count())) {}
+
+PathModel::Outcome PathModel::plan_next_agent() {
+  const auto index = static_cast<AgentIndex>(agents_.size());
+  AgentStops& stops = stops_.of(index);
+  SequenceStages goals(stops, SequenceClass{});
+  Path path;
+  const std::int64_t labels = low_level_.expanded();
+  const PathOutcome outcome = low_level_.find(goals, PathQuery{}, limits_, path);
+  work_ += low_level_.expanded() - labels + effort::kUnitsPerCall;
+  if (outcome != PathOutcome::kFound)
+    return limits_.stop_requested() ? Outcome::kStopped : Outcome::kTooLarge;
+  Agent agent{.graph = std::make_unique<PathGraph>(stops, static_cast<Time>(path.size()) - 1)};
+  if (const Outcome grown = grow(*agent.graph, 0); grown != Outcome::kDone) return grown;
+  agent.walk = walk_with_fewest_conflicts(*agent.graph);
+  least_sum_ += agent.graph->least_cost();
+  paths_[index] = path_of(agent);
+  first_paths_.add(paths_[index]);
+  agents_.push_back(std::move(agent));
+  return Outcome::kDone;
+}
+
+// Of the walks of least cost, one with the fewest conflicts with the first paths of the agents
+// before. The graph has grown once, so its nodes are numbered in order of time.
+std::vector<PathGraph::Node> PathModel::walk_with_fewest_conflicts(const PathGraph& graph) const {
+  using Node = PathGraph::Node;
+  constexpr Node kNone = -1;
+  std::vector<int> conflicts(static_cast<std::size_t>(graph.count()));
+  std::vector<Node> next(conflicts.size(), kNone);
+  for (Node node = graph.count(); node-- > 0;) {
+    if (graph.excess(node) > 0) continue;
+    if (graph.is_final(node)) {
+      conflicts[node] = first_paths_.conflicts_of_resting(graph.place(node), graph.arrival(node));
+      continue;
+    }
+    for (const Node to : graph.successors(node)) {
+      if (graph.excess(to) > 0) continue;
+      const int then = conflicts[to] +
+                       first_paths_.conflicts(graph.place(node), graph.place(to), graph.time(to));
+      if (next[node] == kNone || then < conflicts[node]) {
+        next[node] = to;
+        conflicts[node] = then;
+      }
+    }
+  }
+  Node node = kNone;
+  for (const Node start : graph.starts())
+    if (graph.excess(start) == 0 && (node == kNone || conflicts[start] < conflicts[node]))
+      node = start;
+  std::vector<Node> walk;
+  for (; node != kNone; node = next[node]) walk.push_back(node);
+  return walk;
+}
+
+PathModel::Outcome PathModel::grow(PathGraph& graph, Time excess) {
+  const std::int64_t visited = graph.visited();
+  const auto grown = graph.grow(excess, kMaxNodes, limits_);
+  work_ += (graph.visited() - visited) / effort::kTimedNodes;
+  if (grown == PathGraph::Outcome::kGrown) return Outcome::kDone;
+  return limits_.stop_requested() ? Outcome::kStopped : Outcome::kTooLarge;
+}
+
+PathModel::Outcome PathModel::grow(AgentIndex index) {
+  Agent& agent = agents_[index];
+  const Outcome outcome = grow(*agent.graph, agent.clauses->levels());
+  if (outcome == Outcome::kDone) agent.clauses->grow();
+  return outcome;
+}
+
+void PathModel::limit(AgentIndex agent, Time excess) {
+  solver_.add({within(agent, excess)});
+  agents_[agent].is_limited = true;
+}
+
+void PathModel::add(const GroupExcess& excess) {
+  std::vector<Literal> clause;
+  int clauses = 0;
+  // Excludes the assignments in which the agents from `agent` on cost at most `rest` more together.
+  const auto exclude = [&](auto& self, std::size_t agent, Time rest) -> void {
+    const bool is_last = agent + 1 == excess.agents.size();
+    for (Time own = is_last ? rest : 0; own <= rest && clauses < kMaxExcessClauses; ++own) {
+      clause.push_back(-within(excess.agents[agent], own));
+      if (is_last) {
+        solver_.add(clause);
+        ++clauses;
+      } else {
+        self(self, agent + 1, rest - own);
+      }
+      clause.pop_back();
+    }
+  };
+  exclude(exclude, 0, static_cast<Time>(excess.excess) - 1);
+}
+
+SatSolver::Result PathModel::solve(std::vector<Literal> assumptions,
+                                   std::span<const AgentIndex> needed, int max_conflicts) {
+  std::vector<std::uint8_t> is_needed(agents_.size(), 0);
+  for (const AgentIndex agent : needed) is_needed[agent] = 1;
+  for (std::size_t agent = 0; agent < agents_.size(); ++agent)
+    if (agents_[agent].clauses && is_needed[agent] == 0 && !agents_[agent].is_limited)
+      assumptions.push_back(-agents_[agent].clauses->active());
+  return solver_.solve(assumptions, max_conflicts);
+}
+
+void PathModel::read_walks() {
+  for (std::size_t index = 0; index < agents_.size(); ++index) {
+    Agent& agent = agents_[index];
+    if (!agent.clauses) continue;
+    auto walk = agent.clauses->walk();
+    agent.has_path = walk.has_value();
+    if (!walk || *walk == agent.walk) continue;
+    agent.walk = *std::move(walk);
+    paths_[index] = path_of(agent);
+  }
+}
+
+std::int64_t PathModel::add_conflicts() {
+  read_walks();
+  std::vector<AgentIndex> with_path;
+  for (AgentIndex index = 0; index < std::ssize(agents_); ++index)
+    if (agents_[index].has_path) with_path.push_back(index);
+  std::vector<Conflict> conflicts;
+  finder_.all(paths_, with_path, conflicts);
+  for (const Path& path : paths_) work_ += std::ssize(path) / effort::kScannedSteps;
+  std::vector<Split> splits;
+  for (const Conflict& conflict : conflicts) {
+    splits.clear();
+    splits_of(conflict, paths_, problem_, techniques_, splits);
+    for (const Split& split : splits) add_split(conflict, split);
+  }
+  path_conflicts_ += std::ssize(conflicts);
+  return std::ssize(conflicts);
+}
+
+void PathModel::add_split(const Conflict& conflict, const Split& split) {
+  std::vector<Literal> clause;
+  for (const AgentConstraint& side : split) {
+    const Literal literal = clauses_of(side.agent).satisfies(side.constraint);
+    clause.push_back(literal);
+    if (!constrains_all_agents(side.constraint)) continue;
+    const AgentIndex other = side.agent == conflict.first ? conflict.second : conflict.first;
+    solver_.add({-literal, clauses_of(other).satisfies(*constraint_on(other, side))});
+  }
+  solver_.add(clause);
+}
+
+// Makes the clauses of the agent when they are first needed.
+PathClauses& PathModel::clauses_of(AgentIndex index) {
+  Agent& agent = agents_[index];
+  if (!agent.clauses) {
+    agent.clauses = std::make_unique<PathClauses>(solver_, index, *agent.graph,
+                                                  problem_.corridors, place_conflicts_);
+    agent.clauses->grow();
+    agent.clauses->prefer(agent.walk);
+    new_agents_.push_back(index);
+  }
+  return *agent.clauses;
+}
+
+bool PathModel::has_all_paths() const {
+  return std::ranges::all_of(agents_, &Agent::has_path);
+}
+
+Path PathModel::path_of(const Agent& agent) const {
+  Path path;
+  for (const PathGraph::Node node : agent.walk) path.push_back(agent.graph->state(node));
+  return path;
+}
+
+// A walk may wait within a task execution; in the plan, the wait follows the execution.
+Plan PathModel::plan() const {
+  GROVE_CHECK(is_complete() && has_all_paths(), "a plan has a path for each agent");
+  Plan plan;
+  for (AgentIndex index = 0; index < std::ssize(agents_); ++index) {
+    plan.agents.push_back(plan_of_path(problem_.instance, index, paths_[index]));
+    plan.cost += plan.agents.back().cost;
+  }
+  return plan;
+}
+
+std::size_t PathModel::bytes() const {
+  std::size_t bytes = solver_.bytes();
+  for (const Agent& agent : agents_) bytes += agent.graph->bytes();
+  return bytes;
+}
+
+}  // namespace grove::detail
