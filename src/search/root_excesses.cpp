@@ -2,8 +2,10 @@
 #include "search/root_excesses.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "model/assert.h"
+#include "search/known_excesses.h"
 
 namespace grove::detail {
 
@@ -13,19 +15,9 @@ RootExcesses::RootExcesses(SharedCache& cache, const Tree& tree) : cache_(cache)
 }
 
 std::vector<GroupExcess> RootExcesses::all() const {
-  std::vector<GroupExcess> excesses;
   std::vector<DependencyTable::Partner> partners;
-  for (AgentIndex agent = 0; agent < std::ssize(subproblems_); ++agent) {
-    partners.clear();
-    cache_.excesses.partners(subproblems_[agent], partners);
-    for (const DependencyTable::Partner& other : partners)
-      if (subproblems_[other.agent] == other.subproblem)
-        excesses.push_back({{agent, other.agent}, other.excess});
-  }
-  cache_.excesses.groups_at(subproblems_, [&](const DependencyTable::Group& group) {
-    if (group.known.excess > 0) excesses.push_back({group.agents, group.known.excess});
-  });
-  std::ranges::sort(excesses, {}, &GroupExcess::agents);
+  std::vector<GroupExcess> excesses;
+  collect_excesses(cache_.excesses, subproblems_, partners, excesses);
   return excesses;
 }
 

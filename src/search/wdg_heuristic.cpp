@@ -55,11 +55,11 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <limits>
 #include <numeric>
 
 #include "model/assert.h"
+#include "search/known_excesses.h"
 
 namespace grove::detail {
 namespace {
@@ -95,7 +95,7 @@ WdgHeuristic::Outcome WdgHeuristic::find_bound(const NodePtr& node, NodeView& vi
     if (outcome != Outcome::kDone) return outcome;
   }
   std::vector<GroupExcess> statements;
-  collect(statements);
+  collect_excesses(memory_, subproblem_, partners_, statements);
   const auto max_excess = std::ranges::max_element(statements, {}, &GroupExcess::excess);
   // A single statement that reaches the cutoff suffices, so the other statements are not needed.
   if (max_excess != statements.end() && max_excess->excess > slack)
@@ -263,36 +263,6 @@ void WdgHeuristic::log_bound(const NodeView& view, std::span<const GroupExcess> 
   for (const GroupExcess& s : statements)
     excesses.push_back({lemma_at(view, s.agents, s.excess).key(), s.agents, s.excess});
   proof_->bound(proof_key(*view.node()), view.node()->cost(), bound, excesses);
-}
-
-// Collects each pair and group whose current subproblems have a known positive excess, once, with
-// its greatest known excess. The order does not depend on when the results became known.
-void WdgHeuristic::collect(std::vector<GroupExcess>& statements) {
-  for (AgentIndex a = 0; a < agents_; ++a) {
-    partners_.clear();
-    memory_.partners(subproblem_[a], partners_);
-    for (const DependencyTable::Partner& b : partners_)
-      if (subproblem_[b.agent] == b.subproblem) statements.push_back({{a, b.agent}, b.excess});
-  }
-  memory_.groups_at(subproblem_, [&](const DependencyTable::Group& group) {
-    if (group.known.excess > 0) statements.push_back({group.agents, group.known.excess});
-  });
-  std::ranges::sort(statements, [](const GroupExcess& s, const GroupExcess& t) {
-    return s.agents != t.agents ? s.agents < t.agents : s.excess > t.excess;
-  });
-  const auto repeats = [](const GroupExcess& s, const GroupExcess& t) {
-    return s.agents == t.agents;
-  };
-  statements.erase(std::unique(statements.begin(), statements.end(), repeats), statements.end());
-  GROVE_ASSERT(std::ranges::adjacent_find(statements, std::greater_equal<>(),
-                                          &GroupExcess::agents) == statements.end(),
-               "statements are about distinct groups, in ascending order");
-  GROVE_ASSERT(std::ranges::all_of(statements,
-                                   [](const GroupExcess& s) {
-                                     return s.excess > 0 && s.agents.size() > 1 &&
-                                            std::ranges::is_sorted(s.agents);
-                                   }),
-               "a statement gives two or more agents a positive excess");
 }
 
 ProofKey WdgHeuristic::lemma_key(NodeView& view, const Split& split) {

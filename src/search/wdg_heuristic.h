@@ -93,7 +93,6 @@ class WdgHeuristic {
   std::vector<SubproblemTable::Id> key(std::span<const AgentIndex> group) const;
   bool solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
              std::int64_t max_expansions, const Limits& limits, ExcessBound& known);
-  void collect(std::vector<GroupExcess>& statements);
   void log_lemma(const NodeView& view, std::span<const AgentIndex> group, Cost excess);
   void log_bound(const NodeView& view, std::span<const GroupExcess> statements, Cost bound);
   std::int64_t work() const { return planner_.work() + joint_groups_.work(); }

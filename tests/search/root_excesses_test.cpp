@@ -52,7 +52,9 @@ TEST_F(RootExcessesTest, OmitStatementsUnderConstraints) {
   const std::vector<Constraint> constraints{{.cell = 5, .begin = 1, .end = 1}};
   CacheDelta delta;
   delta.pairs.push_back({cache_.subproblems.id(0, *tree.orders[0], constraints),
-                         cache_.subproblems.id(1, *tree.orders[1], {}), 1, {.excess = 3}});
+                         cache_.subproblems.id(1, *tree.orders[1], {}),
+                         1,
+                         {.excess = 3}});
   cache_.merge(delta);
   EXPECT_TRUE(excesses.all().empty());
 }
