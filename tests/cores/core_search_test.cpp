@@ -16,12 +16,9 @@
 namespace grove::detail {
 namespace core_search_test {
 
+constexpr int kToTheEnd = 1'000'000;  // steps
 constexpr std::size_t kMaxBytes = std::size_t{1} << 28;
 using Outcome = CoreSearch::Outcome;
-
-fuzz::TinyInstance tiny_instance(std::uint64_t seed) {
-  return seed % 2 == 0 ? fuzz::random_instance(seed) : fuzz::random_world(seed);
-}
 
 // A core-guided search with everything that it needs.
 class Search {
@@ -64,6 +61,25 @@ Cost least_cost(const Instance& instance, AgentIndex agent) {
   return static_cast<Cost>(path.size()) - 1;
 }
 
+// An instance of any kind that has a plan, and an optimal plan.
+struct SolvableCase {
+  std::uint64_t seed;
+  Instance instance;
+  Plan optimum;
+};
+
+// Calls test(case) for about half of `rounds` random cases.
+template <class Test>
+void for_each_solvable(int rounds, Test test) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(rounds));
+       ++seed) {
+    SCOPED_TRACE(seed);
+    Instance instance = fuzz::any_instance(seed).build();
+    oracle::Answer truth = oracle::solve_jointly(instance);
+    if (truth.plan) test(SolvableCase{seed, std::move(instance), *std::move(truth.plan)});
+  }
+}
+
 Techniques some_splits(std::uint64_t seed) {
   Techniques techniques;
   if (seed % 3 != 0) techniques = techniques.with(Technique::kTarget);
@@ -78,14 +94,14 @@ TEST(CoreSearch, AgreesWithTheOracle) {
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(160));
        ++seed) {
     SCOPED_TRACE(seed);
-    Instance instance = tiny_instance(seed).build();
+    Instance instance = fuzz::any_instance(seed).build();
     if (seed % 5 == 0) instance = instance.without_following();
     const oracle::Answer truth = oracle::solve_jointly(instance);
     if (truth.verdict == oracle::Verdict::kTooLarge) continue;
     const Cost optimum = truth.plan ? truth.plan->cost : kInfiniteCost;
     Search search(instance, some_splits(seed));
     const Outcome outcome =
-        search.run(kInfiniteCost, truth.plan ? 1'000'000 : 40,
+        search.run(kInfiniteCost, truth.plan ? kToTheEnd : 40,
                    [&](const CoreSearch& so_far) { ASSERT_LE(so_far.lower_bound(), optimum); });
     if (search->cores() > 0) ++with_cores;
     if (!truth.plan) {
@@ -113,58 +129,41 @@ TEST(CoreSearch, AgreesWithTheOracle) {
 // optimum + 1 it finds the optimum.
 TEST(CoreSearch, ProvesTheCutoff) {
   int proven = 0;
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(70));
-       ++seed) {
-    SCOPED_TRACE(seed);
-    const Instance instance = tiny_instance(seed).build();
-    const oracle::Answer truth = oracle::solve_jointly(instance);
-    if (!truth.plan) continue;
-    const Cost optimum = truth.plan->cost;
-    Search at(instance, some_splits(seed));
-    EXPECT_EQ(at.run(optimum, 1'000'000), Outcome::kSolved);
+  for_each_solvable(70, [&](const SolvableCase& c) {
+    Search at(c.instance, some_splits(c.seed));
+    EXPECT_EQ(at.run(c.optimum.cost, kToTheEnd), Outcome::kSolved);
     EXPECT_FALSE(at->plan());
-    EXPECT_EQ(at->lower_bound(), optimum);
-    Search above(instance, some_splits(seed));
-    EXPECT_EQ(above.run(optimum + 1, 1'000'000), Outcome::kSolved);
+    EXPECT_EQ(at->lower_bound(), c.optimum.cost);
+    Search above(c.instance, some_splits(c.seed));
+    EXPECT_EQ(above.run(c.optimum.cost + 1, kToTheEnd), Outcome::kSolved);
     ASSERT_TRUE(above->plan());
-    EXPECT_EQ(above->plan()->cost, optimum);
+    EXPECT_EQ(above->plan()->cost, c.optimum.cost);
     ++proven;
-  }
+  });
   EXPECT_GT(proven, 25);
 }
 
 // The cutoff falls during the search, from far above the optimum to the optimum.
 TEST(CoreSearch, AcceptsAFallingCutoff) {
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(70));
-       ++seed) {
-    SCOPED_TRACE(seed);
-    const Instance instance = tiny_instance(seed).build();
-    const oracle::Answer truth = oracle::solve_jointly(instance);
-    if (!truth.plan) continue;
-    const Cost optimum = truth.plan->cost;
-    Search search(instance, some_splits(seed));
-    Cost cutoff = optimum + 6;
+  for_each_solvable(70, [&](const SolvableCase& c) {
+    Search search(c.instance, some_splits(c.seed));
+    Cost cutoff = c.optimum.cost + 6;
     Outcome outcome = Outcome::kWorking;
     while (outcome == Outcome::kWorking) {
       outcome = search.run(cutoff, 3);
-      ASSERT_LE(search->lower_bound(), optimum);
-      cutoff = std::max(optimum, cutoff - 1);
+      ASSERT_LE(search->lower_bound(), c.optimum.cost);
+      cutoff = std::max(c.optimum.cost, cutoff - 1);
     }
     EXPECT_EQ(outcome, Outcome::kSolved);
-    EXPECT_EQ(search->lower_bound(), optimum);
-  }
+    EXPECT_EQ(search->lower_bound(), c.optimum.cost);
+  });
 }
 
 // Statements about groups hold in optimal plans, and a search that is given them finds the same.
 TEST(CoreSearch, StatementsAboutGroupsAreTrue) {
   int statements = 0;
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(200));
-       ++seed) {
-    SCOPED_TRACE(seed);
-    const Instance instance = tiny_instance(seed).build();
-    const oracle::Answer truth = oracle::solve_jointly(instance);
-    if (!truth.plan) continue;
-    Search search(instance, some_splits(seed));
+  for_each_solvable(200, [&](const SolvableCase& c) {
+    Search search(c.instance, some_splits(c.seed));
     std::vector<GroupExcess> found;
     search.run(kInfiniteCost, 1000, [&](CoreSearch& so_far) {
       for (const GroupExcess& excess : so_far.take_excesses()) found.push_back(excess);
@@ -172,21 +171,16 @@ TEST(CoreSearch, StatementsAboutGroupsAreTrue) {
     for (const GroupExcess& excess : found) {
       Cost cost = 0;
       for (const AgentIndex agent : excess.agents)
-        cost += truth.plan->agents[agent].cost - least_cost(instance, agent);
+        cost += c.optimum.agents[agent].cost - least_cost(c.instance, agent);
       ASSERT_GE(cost, excess.excess);
       ++statements;
     }
-    Search again(instance, some_splits(seed + 1));
-    Outcome outcome = Outcome::kWorking;
-    bool is_added = false;
-    while (outcome == Outcome::kWorking) {
-      if (again->is_set_up() && !std::exchange(is_added, true))
-        for (const GroupExcess& excess : found) (*again).add(excess);
-      outcome = again.run(truth.plan->cost + 1, 1);
-    }
-    EXPECT_EQ(outcome, Outcome::kSolved);
-    EXPECT_EQ(again->lower_bound(), truth.plan->cost);
-  }
+    Search again(c.instance, some_splits(c.seed + 1));
+    while (!again->is_set_up()) ASSERT_EQ(again.run(c.optimum.cost + 1, 1), Outcome::kWorking);
+    for (const GroupExcess& excess : found) (*again).add(excess);
+    EXPECT_EQ(again.run(c.optimum.cost + 1, kToTheEnd), Outcome::kSolved);
+    EXPECT_EQ(again->lower_bound(), c.optimum.cost);
+  });
   EXPECT_GT(statements, 20);
 }
 

@@ -21,6 +21,8 @@ TinyInstance random_roads(std::uint64_t seed);
 // Returns an instance on a grid or a roadmap, with some of: turning agents, tasks with a duration,
 // several tasks on a cell, idle agents, and starts on a road, during a turn or during a task.
 TinyInstance random_world(std::uint64_t seed);
+// An instance of any kind: random_instance() or random_world().
+TinyInstance any_instance(std::uint64_t seed);
 // Adds some features of random_world() to `instance`, which can have any size.
 TinyInstance with_motions(TinyInstance instance, std::uint64_t seed);
 

@@ -160,4 +160,8 @@ TinyInstance with_motions(TinyInstance instance, std::uint64_t seed) {
   return Decorator(std::move(instance), seed).make();
 }
 
+TinyInstance any_instance(std::uint64_t seed) {
+  return seed % 2 == 0 ? random_instance(seed) : random_world(seed);
+}
+
 }  // namespace grove::detail::fuzz

@@ -15,7 +15,7 @@
 namespace grove::detail::lagrangian_test {
 
 inline Instance tiny_instance(std::uint64_t seed) {
-  return (seed % 2 == 0 ? fuzz::random_instance(seed) : fuzz::random_world(seed)).build();
+  return fuzz::any_instance(seed).build();
 }
 
 // Two agents that must pass each other in a corridor with one bay. The multipliers keep changing

@@ -25,11 +25,6 @@ inline SearchOptions options_of(std::uint64_t seed) {
   return options;
 }
 
-// An instance of any kind; the seed determines it.
-inline fuzz::TinyInstance tiny_instance(std::uint64_t seed) {
-  return seed % 2 == 0 ? fuzz::random_instance(seed) : fuzz::random_world(seed);
-}
-
 // True if the instance has a group of agents, and its search begins with a tree.
 inline bool has_groups(const Instance& instance) {
   if (instance.agent_count() < 2) return false;

@@ -21,7 +21,7 @@ TEST(JointGroups, ExcessEqualsThatOfAnExhaustiveSearch) {
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(600));
        ++seed) {
     SCOPED_TRACE(seed);
-    const auto tiny = testing::tiny_instance(seed);
+    const auto tiny = fuzz::any_instance(seed);
     if (!testing::has_groups(tiny.build())) continue;
     testing::NodeBelowRoot s(tiny, seed);
     const std::vector<AgentIndex> group = s.random_group();
