@@ -15,15 +15,15 @@
 namespace grove::detail {
 
 // The agents of each core are in one component; components are joined by the cores that they share
-// agents with. The head of core_search.cpp proves that the agents of a component cost at least as much more than
-// individually as their cores have raised the bound. One thread at a time.
+// agents with. The head of core_search.cpp proves that the agents of a component cost at least as
+// much more than individually as their cores have raised the bound. One thread at a time.
 class CoreComponents {
  public:
   // Maximum number of agents in a statement of take_excesses().
   static constexpr std::size_t kMaxGroup = 10;
 
-  // A core of these agents, in ascending order, has raised the bound by `raised`. `is_unconditional`:
-  // it holds for all plans, whatever they cost.
+  // A core of these agents, in ascending order, has raised the bound by `raised`.
+  // `is_unconditional`: it holds for all plans, whatever they cost.
   void add(std::span<const AgentIndex> agents, Cost raised, bool is_unconditional);
   // Returns the statements about groups of two agents or more since the last call. They hold for
   // all plans.

@@ -2,30 +2,31 @@
 // The hard clauses are those of path_model.cpp. For each valid plan there is an assignment that
 // satisfies them, in which within_a(e) is true exactly if agent a costs at most its least cost + e.
 //
-// *Bound.* Let x_a be the excess of agent a in a valid plan: the number of e with within_a(e) false.
-// The cost of the plan is the sum of the least costs plus the sum of all x_a. The algorithm (OLL)
-// maintains a set of soft literals of weight 1, at first within_a(0) for all a, and the invariant
+// *Bound.* Let x_a be the excess of agent a in a valid plan: the number of e with within_a(e)
+// false. The cost of the plan is the sum of the least costs plus the sum of all x_a. The algorithm
+// (OLL) maintains a set of soft literals of weight 1, at first within_a(0) for all a, and the
+// invariant
 //
 //   sum of x_a  >=  raised + number of false soft literals                                     (1)
 //
 // for every valid plan and its assignment. If the hard clauses contradict a set C of soft literals
 // (a *core*), at least one of them is false. Let k >= 1 be a number such that at least k are false.
 // Let f be the number of false literals of C, f >= k, and let L_j be literals with: "f >= j implies
-// L_j" (totalizer.h); for the assignment, L_j is true exactly if f >= j. Then f = k + number of true
-// L_j, k < j <= |C|. So C can be replaced by the soft literals not L_j, and `raised` by raised + k.
-// It suffices to add not L_(k+1) at first and the next one when it is in a core, because with fewer
-// soft literals (1) is weaker. In the same way, if within_a(e) is in a core, within_a(e + 1) becomes
-// a soft literal; it is false only if within_a(e) is, and x_a counts both.
-// The sum of the least costs plus `raised` is therefore a lower bound, after each core.
+// L_j" (totalizer.h); for the assignment, L_j is true exactly if f >= j. Then f = k + number of
+// true L_j, k < j <= |C|. So C can be replaced by the soft literals not L_j, and `raised` by raised
+// + k. It suffices to add not L_(k+1) at first and the next one when it is in a core, because with
+// fewer soft literals (1) is weaker. In the same way, if within_a(e) is in a core, within_a(e + 1)
+// becomes a soft literal; it is false only if within_a(e) is, and x_a counts both. The sum of the
+// least costs plus `raised` is therefore a lower bound, after each core.
 //
 // *Groups.* Let S be a set of agents such that each core so far depends on agents of S only, or on
 // none of them. The steps above then prove (1) for the sum over S, with the increases by the cores
 // of S and the soft literals of S: S costs at least that much more than the sum of its least costs.
 //
 // *Cutoff.* Agent a of a plan that costs less than the cutoff has an excess of at most E = cutoff -
-// 1 - sum of least costs. If within_a(e) with e >= E is in a core, it becomes a hard clause instead,
-// which holds for all plans below the cutoff; so does the bound from then on. (The cutoff only
-// falls, so the clause stays valid.)
+// 1 - sum of least costs. If within_a(e) with e >= E is in a core, it becomes a hard clause
+// instead, which holds for all plans below the cutoff; so does the bound from then on. (The cutoff
+// only falls, so the clause stays valid.)
 //
 // *Plans.* A model of all soft literals whose paths have no conflict is a valid plan. Its cost is
 // lower_bound(), because no path has an excess beyond `raised`. Every other model violates a clause
@@ -75,8 +76,7 @@ CoreSearch::Outcome CoreSearch::step(Cost cutoff) {
 }
 
 CoreSearch::Outcome CoreSearch::set_up() {
-  if (model_.plan_next_agent() != PathModel::Outcome::kDone)
-    return stopped_or(Outcome::kExhausted);
+  if (model_.plan_next_agent() != PathModel::Outcome::kDone) return stopped_or(Outcome::kExhausted);
   if (model_.is_complete()) {
     lower_bound_ = model_.least_sum();
     phase_ = Phase::kSolve;

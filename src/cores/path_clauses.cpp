@@ -21,8 +21,8 @@
 // clauses are obvious. If the cost of p is beyond the levels, all within(e) that occur in node
 // clauses are false, and no node is needed, only the presences of p that have literals.
 //
-// A model of the clauses may contain more than one walk. path() takes one of them; it satisfies the
-// constraints whose literals are true, because no presence of the model violates one of them.
+// A model of the clauses may contain more than one walk. walk() returns one of them; it satisfies
+// the constraints whose literals are true, because no presence of the model violates one of them.
 #include "cores/path_clauses.h"
 
 #include <algorithm>
@@ -54,7 +54,8 @@ void PathClauses::grow() {
     if (graph_.excess(node) <= level) add_walk_clauses(node);
 }
 
-// A final node needs no successor. Once a node has all its successors, one clause covers all levels.
+// A final node needs no successor. Once a node has all its successors, one clause covers all
+// levels.
 void PathClauses::add_walk_clauses(PathGraph::Node node) {
   if (graph_.is_final(node) || has_all_successors_[node] != 0) return;
   const Time level = levels_ - 1;

@@ -10,17 +10,17 @@
 #include <vector>
 
 #include "cores/path_graph.h"
+#include "cores/place_conflicts.h"
 #include "cores/sat_solver.h"
 #include "cores/traversal_clauses.h"
-#include "cores/place_conflicts.h"
 #include "planning/constraint.h"
 
 namespace grove::detail {
 
 // The clauses of one agent's paths, with literals for limits on its cost and for constraints on it.
 // *Contract*: each path of the agent defines an assignment that satisfies all these clauses. In it,
-// within(e) is true if the path costs at most least_cost() + e, and satisfies(c) is true if the
-// path satisfies c. The proof is at the head of path_clauses.cpp. One thread at a time.
+// within(e) is true exactly if the path costs at most least_cost() + e, and satisfies(c) exactly
+// if the path satisfies c. The proof is at the head of path_clauses.cpp. One thread at a time.
 class PathClauses {
  public:
   // All arguments must outlive this object.
@@ -67,9 +67,9 @@ class PathClauses {
   const bool is_node_presence_;  // no two nodes have the same presence
   const Literal active_;
   Time levels_ = 0;
-  std::vector<Literal> nodes_;   // by node; 0: no literal yet
+  std::vector<Literal> nodes_;                    // by node; 0: no literal yet
   std::vector<std::uint8_t> has_all_successors_;  // by node: in a clause for all levels
-  std::vector<Literal> within_;  // by excess
+  std::vector<Literal> within_;                   // by excess
   PresenceLiterals presences_;
   std::vector<ConstraintLiteral> constraints_;
   std::unordered_map<Place, Constraints> constraints_on_;  // by place that they mention

@@ -7,13 +7,14 @@
 // the same time of the last arrival, and at most the same cost.* *Proof.* Split the path at its
 // last arrival. Before it, the path is a walk on the way: grow() extends the costs to go until they
 // cover all sequences within the cost, and a path that counts each stop as early as possible passes
-// all stages that matter (mdd.cpp). After it, waits are pointless: without them the agent is on the
+// only known stages (mdd.cpp). After it, waits are pointless: without them the agent is on the
 // same place at the same times, forever, does the same tasks, and finishes no later. A node is
 // dropped only if its time plus a lower bound on the remaining cost exceeds the cost.
 //
-// *All successors.* The costs to go cover all routes of cost latest_ or less, so a distance with time +
-// distance <= latest_ is exact. A node has all its successors if no move from it was dropped because
-// of its cost; an arrival is dropped for good where the agent cannot finish without leaving again.
+// *All successors.* The costs to go cover all routes of cost latest_ or less, so if time + distance
+// <= latest_, no unknown route is shorter, and the distance is a lower bound at all later calls
+// too. A node has all its successors if no move from it was dropped because of its cost; an arrival
+// is dropped for good where even this lower bound shows that the agent must leave the place again.
 //
 // *Backward pass.* Moves lead to later times, so the least cost from each node is computed by
 // descending time.
@@ -106,7 +107,7 @@ bool PathGraph::is_foreign_work(State state) const {
 bool PathGraph::reach(State state, StageId stage, Time time, Time arrival) {
   const Time distance = goals_.distance(stage, state);
   if (distance > latest_ - time) return false;
-  // From here on the distance is exact, so later calls come to the same result.
+  // No unknown route is shorter, so later calls come to the same result.
   if (arrival != kOnTheWay && distance > goals_.stops().longest_finish(world_.place(state)))
     return true;
   const auto [at, is_new] =
@@ -131,9 +132,10 @@ std::int32_t PathGraph::stage_number(StageId stage) {
   std::int32_t& number = numbers_of_stages_[index];
   if (number < 0) {
     const SequenceStages::Stage& key = goals_.stage(stage);
-    number = stage_numbers_
-                 .try_emplace({key.left, key.rests}, static_cast<std::int32_t>(stage_numbers_.size()))
-                 .first->second;
+    number =
+        stage_numbers_
+            .try_emplace({key.left, key.rests}, static_cast<std::int32_t>(stage_numbers_.size()))
+            .first->second;
   }
   return number;
 }
@@ -146,9 +148,9 @@ void PathGraph::find_excesses() {
       excess = std::min(excess, nodes_[next].excess);
     GROVE_ASSERT(excess >= 0, "no walk costs less than the least cost");
     node.excess = excess;
-    node.has_all_successors &=
-        std::ranges::all_of(successors(queue_[i].first),
-                            [&](Node next) { return nodes_[next].excess <= latest_ - least_cost_; });
+    node.has_all_successors &= std::ranges::all_of(successors(queue_[i].first), [&](Node next) {
+      return nodes_[next].excess <= latest_ - least_cost_;
+    });
   }
 }
 

@@ -18,7 +18,7 @@ namespace grove::detail {
 // Layered graph over (state, stage, time), of an agent without constraints. A node is either *on
 // the way*, or *arrived*: the agent has made its last arrival on the place and stays there forever.
 // A walk from a start to a final node is a path; its cost is the time of the final node. Every path
-// without pointless waits (path_graph.cpp) is a walk. The excess of a node is the least cost of a
+// that does not wait after its last arrival is a walk. The excess of a node is the least cost of a
 // walk through it, minus the least cost of all walks. Grows on demand; node numbers do not change.
 // One thread at a time.
 class PathGraph {
@@ -112,9 +112,9 @@ class PathGraph {
   std::int64_t visited_ = 0;
   // Of the current call of grow().
   Time latest_ = 0;
-  std::vector<std::pair<Node, StageId>> queue_;   // in order of time
-  std::vector<std::uint8_t> is_queued_;           // by node
-  std::vector<std::int32_t> numbers_of_stages_;   // by StageId; -1: not known yet
+  std::vector<std::pair<Node, StageId>> queue_;  // in order of time
+  std::vector<std::uint8_t> is_queued_;          // by node
+  std::vector<std::int32_t> numbers_of_stages_;  // by StageId; -1: not known yet
 };
 
 }  // namespace grove::detail

@@ -6,24 +6,24 @@
 //   satisfies_a(c) or satisfies_b(d)               for each split (c, d) of a conflict
 //   satisfies_a(RestBy) -> satisfies_b(bar)        for the bar that RestBy implies for other agents
 //
-// *Claim: for each valid plan within the limits of limit() there is an assignment that satisfies all
-// clauses, in which within_a(e) is true exactly if agent a costs at most its least cost + e.*
-// *Proof.* Take for each agent the assignment of its path (path_clauses.h), in which satisfies(c) is
-// true exactly if the path satisfies c. A valid plan satisfies at least one constraint of each split
-// (splits.h), and if an agent comes to rest on a place by time T, no other agent is there from T on.
-// A statement that agents a, b, ... together cost at least k more than individually excludes, for
-// all i + j + ... = k - 1, that a costs at most i more, b at most j more, and so on. Each of these
-// clauses holds by itself, so some of them may be left out.
+// *Claim: for each valid plan within the limits of limit() there is an assignment that satisfies
+// all clauses, in which within_a(e) is true exactly if agent a costs at most its least cost + e.*
+// *Proof.* Take for each agent the assignment of its path (path_clauses.h), in which satisfies(c)
+// is true exactly if the path satisfies c. A valid plan satisfies at least one constraint of each
+// split (splits.h), and if an agent comes to rest on a place by time T, no other agent is there
+// from T on. A statement that agents a, b, ... together cost at least k more than individually
+// excludes, for all i + j + ... = k - 1, that a costs at most i more, b at most j more, and so on.
+// Each of these clauses holds by itself, so some of them may be left out.
 //
 // *Agents that are not needed.* solve() assumes that the agents on which the assumptions do not
-// depend are not active, so that the solver assigns their literals by propagation. *Claim: this does
-// not change whether there is a model.* *Proof.* Change a model as follows for each such agent:
-// within(e), all nodes and presences, and the literals that count its presences (place_conflicts,
-// traversal_clauses) become false, satisfies(RestBy) false, the other satisfies(c) true, and the
-// outputs of totalizers over its within(e) true, which no assumption denies. A clause that requires
-// within(e) or satisfies(RestBy) of the agent could be violated: the first are only those of
-// limit(), whose agents are always needed, and a split has RestBy only together with NoRestBy of
-// the same agent, which is true.
+// depend are not active, so that the solver assigns their literals by propagation. *Claim: this
+// does not change whether there is a model.* *Proof.* Change a model as follows for each such
+// agent: within(e), all nodes and presences, and the literals that count its presences
+// (place_conflicts, traversal_clauses) become false, satisfies(RestBy) false, the other
+// satisfies(c) true, and the outputs of totalizers over its within(e) true, which no assumption
+// denies. A clause that requires within(e) or satisfies(RestBy) of the agent could be violated: the
+// first are only those of limit(), whose agents are always needed, and a split has RestBy only
+// together with NoRestBy of the same agent, which is true.
 #include "cores/path_model.h"
 
 #include <algorithm>
@@ -200,8 +200,8 @@ void PathModel::add_split(const Conflict& conflict, const Split& split) {
 PathClauses& PathModel::clauses_of(AgentIndex index) {
   Agent& agent = agents_[index];
   if (!agent.clauses) {
-    agent.clauses = std::make_unique<PathClauses>(solver_, index, *agent.graph,
-                                                  problem_.corridors, place_conflicts_);
+    agent.clauses = std::make_unique<PathClauses>(solver_, index, *agent.graph, problem_.corridors,
+                                                  place_conflicts_);
     agent.clauses->grow();
     agent.clauses->prefer(agent.walk);
     new_agents_.push_back(index);

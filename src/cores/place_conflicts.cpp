@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// *Claim: the assignment of a valid plan (core_search.cpp) satisfies the clauses, if rests_by(t) is
+// *Claim: the assignment of a valid plan (path_model.cpp) satisfies the clauses, if rests_by(t) is
 // true exactly if the agent rests on the place from time t on or earlier.* *Proof.* Two agents are
 // never on one place at the same time. An agent that rests there by time t is there from t on. Of
-// two agents, at most one rests on a place. The literals for t grow with t.
+// two agents, at most one rests on a place. rests_by(t) implies rests_by(u) for u > t.
 #include "cores/place_conflicts.h"
 
 #include <algorithm>
@@ -26,8 +26,7 @@ void PlaceConflicts::add_visit(AgentIndex agent, const Presence& presence, Liter
   }
   OnPlace& place = places_[presence.place];
   for (Resting& resting : place.resting)
-    if (resting.agent != agent)
-      solver_.add({-rests_by(resting, presence.time), -literal});
+    if (resting.agent != agent) solver_.add({-rests_by(resting, presence.time), -literal});
   place.visits.push_back({agent, presence.time, literal});
 }
 

@@ -17,9 +17,7 @@ class Watcher : public CaDiCaL::Terminator, public CaDiCaL::Learner {
  public:
   explicit Watcher(const Limits& limits) : limits_(limits) {}
 
-  bool terminate() override {
-    return ++rounds % kRoundsPerPoll == 0 && limits_.stop_requested();
-  }
+  bool terminate() override { return ++rounds % kRoundsPerPoll == 0 && limits_.stop_requested(); }
   bool learning(int) override {
     ++conflicts;
     return false;

@@ -3,7 +3,7 @@
 // it stays on inner places; the traversal ends with a move from the last inner place to the exit.
 // An agent is at one time on one place, so that the literals for "in a traversal" need only a time.
 // The clauses are implications from presences, true for every path: an assignment that has the
-// presences of a path and the truth in the literals of this file satisfies them.
+// presences of a path and gives each literal of this file its meaning satisfies them.
 #include "cores/traversal_clauses.h"
 
 #include "model/assert.h"

@@ -21,12 +21,12 @@ inline constexpr std::int64_t kJointStates = 2;    // generated joint states
 inline constexpr std::int64_t kMoveTuples = 20;    // joint moves tried for a pattern database
 inline constexpr std::int64_t kPricedLabels = 2;   // labels of a search under multipliers
 inline constexpr std::int64_t kCountedSteps = 32;  // path steps counted between pricing rounds
+inline constexpr std::int64_t kClauseLiterals = 4;   // literals of clauses added to a SAT solver
+inline constexpr std::int64_t kSolverVariables = 4;  // variables of a SAT solver, at each call
 
-inline constexpr std::int64_t kClauseLiterals = 4;     // literals of clauses added to a SAT solver
-inline constexpr std::int64_t kSolverVariables = 4;    // variables of a SAT solver, at each call
-
-// Effort of the SAT solver besides that.
-inline constexpr std::int64_t kPerSolverRound = 2;     // of its main loop
+// Units per round of the main loop of a SAT solver, and per conflict. These rates and the two above
+// are estimates from profiles; no measurement is on record.
+inline constexpr std::int64_t kPerSolverRound = 2;
 inline constexpr std::int64_t kPerSolverConflict = 500;
 
 // Rates that estimate the duration of an expansion: labels and calls as above, and the other
