@@ -3,6 +3,7 @@
 // recipe for a new component is in src/README.md.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -205,6 +206,13 @@ class SharedResults {
   std::shared_ptr<const DualSolution> dual_solution_;
   std::atomic<const Tree*> first_tree_ = nullptr;
 };
+
+// `bytes`, or a quarter of the memory limit if that is less: memory for a bound outside the tree
+// search.
+inline std::size_t at_most_a_quarter(std::size_t bytes, const Limits& limits) {
+  const auto limit = limits.memory_limit();
+  return limit ? std::min(bytes, *limit / 4) : bytes;
+}
 
 // Data and interfaces that the engine gives to each component. All references outlive the
 // component.

@@ -128,9 +128,11 @@ void TextLog::head(const LogHead& h) {
   sink_.line(
       "First column: source of a new incumbent (* tree search, H prioritised planning, C LaCAM,");
   sink_.line(
-      "L large neighbourhood search, J joint search, U unsatisfiable cores, S start plan); else B if");
+      "L large neighbourhood search, J joint search, U unsatisfiable cores, S start plan); else B "
+      "if");
   sink_.line(
-      "the lower bound rose; else T for a new tree. expanded, open: constraint-tree nodes expanded");
+      "the lower bound rose; else T for a new tree. expanded, open: constraint-tree nodes "
+      "expanded");
   sink_.line("and still open.");
   sink_.line("lower bound: no plan costs less. incumbent: cost of the best plan so far.");
   sink_.line("gap = (incumbent - lower bound) / lower bound, directly comparable with omega.");

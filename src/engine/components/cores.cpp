@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The component that proves bounds by unsatisfiable cores (cores/core_search.h).
 //
-// *Share.* It is not known in advance whether tree search or cores prove a bound sooner: a tree
-// multiplies the nodes of independent groups of agents, cores add; in narrow maps the tree is ahead,
-// because it reasons about corridors and groups. The tree search starts alone, because its first
+// *Share.* It is not known in advance whether tree search or cores prove a bound sooner. In a tree,
+// the numbers of nodes for independent groups of agents multiply; with cores, the efforts for the
+// groups add up. In narrow maps the tree search is often faster, because it reasons about corridors
+// and groups. The tree search starts alone, because its first
 // nodes solve most instances. After cores_start_work the cores get, per unit of other effort,
 //
 //   cores_max_share                      if their bound is the global bound
@@ -13,16 +14,16 @@
 // the rate at which the bound has risen over about the latter half of the effort. g / r estimates
 // the effort that is left until the gap is closed. Without an incumbent the share is 1.
 //
-// *Statements about groups.* "These agents together cost at least k more than individually" holds at
-// the root of the only tree, where no agent has a constraint. Both searches prove such statements.
-// The tree search keeps them in its cache, where they raise the bounds of all nodes at which none of
-// these agents has a constraint; in a distributed run they are sent to the other ranks. They are
-// exchanged in commit(), at the same point of every deterministic run.
+// *Statements about groups.* "These agents together cost at least k more than individually" holds
+// at the root of the only tree, where no agent has a constraint. Both searches prove such
+// statements. The tree search keeps them in its cache, where they raise the bounds of all nodes at
+// which none of these agents has a constraint; in a distributed run they are sent to the other
+// ranks. They are exchanged in commit(), at the same point of every deterministic run.
 //
-// *Threads.* It is one sequential search, which one worker performs: worker 0 if there is one thread
-// or the run is deterministic, else worker 1. With T threads, that worker alone cannot give w units
-// per unit of effort of all T workers if w is large. It gives the part f = min(1, T w / (1 + w)) of
-// its time, i.e. f / (1 - f) units per unit of its own other effort.
+// *Threads.* It is one sequential search, which one worker performs: worker 0 if there is one
+// thread or the run is deterministic, else worker 1. With T threads, that worker alone cannot give
+// w units per unit of effort of all T workers if w is large. It gives the part f = min(1, T w / (1
+// + w)) of its time, i.e. f / (1 - f) units per unit of its own other effort.
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -42,11 +43,6 @@ namespace {
 constexpr double kMaxPart = 0.99;  // of a worker's time
 
 constexpr std::size_t kMaxCoresBytes = std::size_t{4} << 30;
-
-std::size_t max_cores_bytes(const Limits& limits) {
-  const auto limit = limits.memory_limit();
-  return limit ? std::min(kMaxCoresBytes, *limit / 4) : kMaxCoresBytes;
-}
 
 // Rate at which a bound has risen per unit of effort, over the latter half to three quarters of the
 // effort.
@@ -146,9 +142,9 @@ std::unique_ptr<WorkItem> CoresWork::next() {
 
 CoresWork::Progress CoresWork::run() {
   if (!search_)
-    search_ = std::make_unique<CoreSearch>(context_.problem, context_.stops,
-                                           techniques_of(context_.options),
-                                           max_cores_bytes(context_.limits), context_.limits);
+    search_ = std::make_unique<CoreSearch>(
+        context_.problem, context_.stops, techniques_of(context_.options),
+        at_most_a_quarter(kMaxCoresBytes, context_.limits), context_.limits);
   const std::int64_t before = search_->work();
   over_ = search_->step(context_.bounds.cutoff()) != CoreSearch::Outcome::kWorking;
   Progress progress{search_->lower_bound(), search_->plan(), search_->work() - before};

@@ -23,12 +23,7 @@ namespace {
 
 constexpr double kMaxLog2States = 44;  // at most 2^44 joint states
 
-constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
-
-std::size_t max_bytes(const Limits& limits) {
-  const auto limit = limits.memory_limit();
-  return limit ? std::min(kMaxBytes, *limit / 4) : kMaxBytes;
-}
+constexpr std::size_t kMaxJointBytes = std::size_t{1} << 30;
 
 class JointWork : public WorkSource {
  public:
@@ -96,7 +91,7 @@ JointWork::Progress JointWork::run() {
   using Outcome = EpeaStar::Outcome;
   const std::int64_t before = search_ ? search_->work() : 0;
   if (!search_)
-    search_ = EpeaStar::make(context_.problem.instance, kMaxLog2States, max_bytes(context_.limits));
+    search_ = EpeaStar::make(context_.problem.instance, kMaxLog2States, at_most_a_quarter(kMaxJointBytes, context_.limits));
   over_ = search_ == nullptr;
   if (over_) return {};
   const Cost cutoff = context_.bounds.cutoff();
