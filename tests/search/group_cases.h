@@ -2,6 +2,8 @@
 // Random nodes and groups of agents, and the excess of a group by exhaustive search.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -14,6 +16,7 @@
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/group_oracle.h"
 #include "tests/search/root_fixture.h"
+#include "tests/support/fuzz_factor.h"
 
 namespace grove::detail::testing {
 
@@ -76,6 +79,22 @@ inline std::optional<Cost> true_excess(NodeBelowRoot& s, const std::vector<Agent
   }
   const auto least = oracle::least_joint_cost(s.instance, paths);
   return least ? std::min<Cost>(*least - apart, max_excess + 1) : max_excess + 1;
+}
+
+// Calls test(node, group, slack, truth) for random groups of agents at random nodes, with the
+// excess `truth` of the group by exhaustive search, or slack + 1 if it is greater than `slack`.
+template <class Test>
+void for_each_group(int rounds, Test test) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(fuzz_rounds(rounds)); ++seed) {
+    SCOPED_TRACE(seed);
+    const fuzz::TinyInstance tiny = fuzz::any_instance(seed);
+    if (!has_groups(tiny.build())) continue;
+    NodeBelowRoot s(tiny, seed);
+    const std::vector<AgentIndex> group = s.random_group();
+    const Cost slack = 1 + s.below(3);
+    const auto truth = true_excess(s, group, static_cast<Time>(slack));
+    if (truth) test(s, group, slack, *truth);
+  }
 }
 
 }  // namespace grove::detail::testing

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "tests/search/group_cases.h"
-#include "tests/support/fuzz_factor.h"
 
 namespace grove::detail {
 namespace group_cbs_test {
@@ -19,35 +18,27 @@ constexpr std::int64_t kEnough = 5000;  // expansions
 // search. It equals this excess if the search ends.
 TEST(GroupCbs, ExcessNeverExceedsThatOfAnExhaustiveSearch) {
   int exact = 0, above = 0, interrupted = 0, expanded = 0;
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(600));
-       ++seed) {
-    SCOPED_TRACE(seed);
-    const auto tiny = fuzz::any_instance(seed);
-    if (!testing::has_groups(tiny.build())) continue;
-    testing::NodeBelowRoot s(tiny, seed);
-    const std::vector<AgentIndex> group = s.random_group();
-    const Cost slack = 1 + s.below(3);
-    const auto truth = testing::true_excess(s, group, static_cast<Time>(slack));
-    if (!truth) continue;
+  testing::for_each_group(600, [&](testing::NodeBelowRoot& s, const std::vector<AgentIndex>& group,
+                                   Cost slack, Cost truth) {
     GroupCbs search(s.problem, s.options, s.planner, s.memory);
     for (const std::int64_t max_expansions : {std::int64_t{1 + s.below(20)}, kEnough}) {
       ExcessBound known;
       ASSERT_TRUE(search.solve(s.view.node(), group, slack, max_expansions, s.limits, known));
-      ASSERT_LE(known.excess, *truth) << "after at most " << max_expansions << " expansions";
+      ASSERT_LE(known.excess, truth) << "after at most " << max_expansions << " expansions";
       ASSERT_LE(known.expansions, max_expansions);
       if (known.exact || known.expansions < max_expansions) {
-        ASSERT_EQ(known.excess, *truth);
+        ASSERT_EQ(known.excess, truth);
       }
       if (known.exact) {
-        ASSERT_LE(*truth, slack);
+        ASSERT_LE(truth, slack);
       }
       if (max_expansions < kEnough)
-        interrupted += known.excess < *truth ? 1 : 0;
+        interrupted += known.excess < truth ? 1 : 0;
       else
         ++(known.exact ? exact : above);
       expanded += known.expansions > 10 ? 1 : 0;
     }
-  }
+  });
   EXPECT_GT(exact, 100);
   EXPECT_GT(above, 20);
   EXPECT_GT(interrupted, 5);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "tests/search/group_cases.h"
-#include "tests/support/fuzz_factor.h"
 
 namespace grove::detail {
 namespace joint_groups_test {
@@ -18,32 +17,24 @@ using ExcessBound = JointGroups::ExcessBound;
 // the result never exceeds that excess.
 TEST(JointGroups, ExcessEqualsThatOfAnExhaustiveSearch) {
   int exact = 0, above = 0, interrupted = 0;
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(600));
-       ++seed) {
-    SCOPED_TRACE(seed);
-    const auto tiny = fuzz::any_instance(seed);
-    if (!testing::has_groups(tiny.build())) continue;
-    testing::NodeBelowRoot s(tiny, seed);
-    const std::vector<AgentIndex> group = s.random_group();
-    const Cost slack = 1 + s.below(3);
-    const auto truth = testing::true_excess(s, group, static_cast<Time>(slack));
-    if (!truth) continue;
+  testing::for_each_group(600, [&](testing::NodeBelowRoot& s, const std::vector<AgentIndex>& group,
+                                   Cost slack, Cost truth) {
     Tuning tuning;
     JointGroups groups(s.instance, tuning, s.planner);
     ExcessBound known;
     ASSERT_TRUE(groups.solve(s.view, group, slack, s.limits, known));
-    ASSERT_EQ(known.excess, *truth);
-    ASSERT_EQ(known.exact, *truth <= slack);
+    ASSERT_EQ(known.excess, truth);
+    ASSERT_EQ(known.exact, truth <= slack);
     ++(known.exact ? exact : above);
     tuning.joint_group_work = s.below(40);
     ExcessBound less;
     ASSERT_TRUE(groups.solve(s.view, group, slack, s.limits, less));
-    ASSERT_LE(less.excess, *truth);
+    ASSERT_LE(less.excess, truth);
     if (less.exact) {
-      ASSERT_EQ(less.excess, *truth);
+      ASSERT_EQ(less.excess, truth);
     }
-    interrupted += less.excess < *truth ? 1 : 0;
-  }
+    interrupted += less.excess < truth ? 1 : 0;
+  });
   EXPECT_GT(exact, 100);
   EXPECT_GT(above, 20);
   EXPECT_GT(interrupted, 10);
