@@ -197,7 +197,7 @@ TEST(Api, WritePlanRefusesInvalidPlans) {
   const Instance instance = small();
   Solution solution = solve(instance, {.omega = 0.5});
   TemporaryDirectory directory;
-  solution.plan->agents[0].path.erase(solution.plan->agents[0].path.begin());
+  solution.plan->agents[0].path.front() = solution.plan->agents[0].path.back();
   EXPECT_EQ(field_of([&] { write_plan(directory / "p.json", instance, solution); }),
             "/agents/0/path/0");
   EXPECT_EQ(field_of([&] { plan_text(instance, solution); }), "/agents/0/path/0");
