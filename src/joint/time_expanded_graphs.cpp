@@ -44,7 +44,7 @@ TimeExpandedGraphs::Outcome TimeExpandedGraphs::make(SequenceStages& goals,
   if (max_cost < 0 || !goals.plausible()) return Outcome::kMade;
   CostToGo& cost_to_go = goals.cost_to_go();
   if (cost_to_go.outside_bound() <= max_cost && !cost_to_go.extend(max_cost, limits))
-    return Outcome::kStopped;
+    return limits.stop_requested() ? Outcome::kStopped : Outcome::kTooLarge;
   goals_ = &goals;
   max_cost_ = max_cost;
   // Each node and each state at rest takes a number; there are at most as many states at rest as

@@ -21,8 +21,9 @@ class TimeExpandedGraphs {
  public:
   enum class Outcome : std::uint8_t {
     kMade,
-    kTooLarge,  // more than `max_nodes` nodes, or more than can be numbered (32,767)
-    kStopped,   // a limit was reached, or the costs to go of `goals` would become too large
+    kTooLarge,  // more than `max_nodes` nodes or more than can be numbered (32,767), or the costs
+                // to go of `goals` would become too large
+    kStopped,   // a limit was reached
   };
 
   // `world` must outlive this object.

@@ -229,7 +229,7 @@ MddBuilder::Outcome MddBuilder::Workspace::build(SequenceStages& goals,
   if (limits.stop_requested()) return Outcome::kStopped;
   CostToGo& cost_to_go = goals.cost_to_go();
   if (cost_to_go.outside_bound() <= cost && !cost_to_go.extend(cost, limits))
-    return Outcome::kStopped;
+    return limits.stop_requested() ? Outcome::kStopped : Outcome::kTooLarge;
   goals_ = &goals;
   limits_ = &limits;
   cost_ = cost;

@@ -71,8 +71,9 @@ class MddBuilder {
   enum class Outcome : std::uint8_t {
     kBuilt,
     kNone,      // proven: no path has exactly this cost
-    kTooLarge,  // more than `max_nodes` nodes, or more (slot, stage) pairs than that were reached
-    kStopped,   // a limit was reached, or the costs to go would become too large
+    kTooLarge,  // more than `max_nodes` nodes or reached (slot, stage) pairs, or the costs to go
+                // would become too large
+    kStopped,   // a limit was reached
   };
 
   // `world` must outlive this object.

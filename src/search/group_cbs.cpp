@@ -42,9 +42,13 @@ bool GroupCbs::solve(const NodePtr& node, std::span<const AgentIndex> group, Cos
     view_.enter(next.node, group);
     children_.clear();
     const auto outcome = brancher_.branch(view_, base + slack + 1, {}, limits, children_);
-    if (outcome == Brancher::Outcome::kStopped) return false;
+    if (outcome == Brancher::Outcome::kStopped && limits.stop_requested()) return false;
     ++expansions_;
     ++known.expansions;
+    if (outcome == Brancher::Outcome::kStopped) {  // costs to go would become too large
+      open_.push_back(next);
+      break;
+    }
     if (outcome == Brancher::Outcome::kConflictFree) {
       known.exact = true;
       GROVE_ASSERT(known.excess == next.cost - base,

@@ -29,8 +29,8 @@ class GroupCbs {
 
   // Raises `known`, the excess of the agents `group` over their paths at `node`, under the
   // constraints of that node. Ends when the excess is exact or above `slack`, or earlier after
-  // `max_expansions` nodes, with a valid bound. Logs a lemma if the excess rises. Returns false if
-  // a limit of the run was reached or the costs to go of an agent would become too large.
+  // `max_expansions` nodes or if the costs to go of an agent would become too large, with a valid
+  // bound. Logs a lemma if the excess rises. Returns false if a limit of the run was reached.
   bool solve(const NodePtr& node, std::span<const AgentIndex> group, Cost slack,
              std::int64_t max_expansions, const Limits& limits, ExcessBound& known);
 

@@ -28,8 +28,7 @@ class JointGroups {
   // the constraints of that node. The agents are in the scope of `view` and in ascending order.
   // Ends when the excess is exact or above `slack`, or earlier at a limit of effort
   // (Tuning::joint_group_work) or size, with a valid bound. Does nothing for more than
-  // Tuning::joint_group_agents agents. Returns false if a limit of the run was reached or the costs
-  // to go of an agent would become too large.
+  // Tuning::joint_group_agents agents. Returns false if a limit of the run was reached.
   bool solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
              const Limits& limits, ExcessBound& known);
 

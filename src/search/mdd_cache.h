@@ -35,9 +35,8 @@ class MddCache {
   void add(SubproblemTable::Id id, const Set& set);
 
   // Builds the MDD of the subproblem (`agent`, `order`, `constraints`), whose least cost is `cost`.
-  // The MDD is empty if it would be too large for `max_nodes` (MddBuilder::Outcome::kTooLarge).
-  // Returns nullptr if a limit was reached or the costs to go would become too large. `planner`
-  // belongs to the calling thread.
+  // The MDD is empty if it or the costs to go would be too large (MddBuilder::Outcome::kTooLarge).
+  // Returns nullptr if a limit was reached. `planner` belongs to the calling thread.
   static Set make(PathPlanner& planner, AgentIndex agent, const AgentSequencing& order,
                   std::span<const Constraint> constraints, Time cost, std::size_t max_nodes,
                   const Limits& limits);

@@ -115,9 +115,9 @@ class WorkerCache {
   SubproblemTable::CostBound known(Id id) const;
   void merge(Id id, SubproblemTable::CostBound known) { found_.costs[id] = known; }
 
-  // The MDD of a subproblem, which is built if it is not cached; empty if it would be too large.
-  // Returns nullptr if a limit was reached or the costs to go would become too large. Valid until
-  // take_delta() or use_shared_cache().
+  // The MDD of a subproblem, which is built if it is not cached; empty if it or the costs to go
+  // would be too large. Returns nullptr if a limit was reached. Valid until take_delta() or
+  // use_shared_cache().
   const Mdd* paths(Id id, AgentIndex agent, const AgentSequencing& order,
                    std::span<const Constraint> constraints, Time cost, const Limits& limits);
 

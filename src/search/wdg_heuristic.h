@@ -37,7 +37,7 @@ class WdgHeuristic {
     kDone,
     kUnfinished,  // Tuning::bound_work was reached, so the worker can do something else; the next
                   // call for the same node continues
-    kStopped,     // a limit was reached, or the costs to go of an agent would become too large
+    kStopped,     // a limit was reached
   };
 
   // Helps other workers that bound the same node with the same shared cache: bounds conflicting

@@ -258,6 +258,15 @@ TEST(Mdd, ReportsWhichLimitWasReached) {
             Outcome::kStopped);
 }
 
+TEST(Mdd, IsTooLargeIfTheCostsToGoAre) {
+  const Grid grid = grid_of({".....", ".....", ".....", ".....", "....."});
+  std::vector<Cell> stops;
+  for (Cell cell = 1; cell < 24; ++cell) stops.push_back(cell);
+  Agent agent(FreeProblem{&grid, 0, stops, 24, {}, {}});
+  EXPECT_EQ(agent.build(80), Outcome::kTooLarge);
+  EXPECT_TRUE(agent.graph.empty());
+}
+
 // One agent rests on the path of an agent that arrives there later.
 TEST(JointMddSearch, CountsTheRestOfTheAgentThatFinishesFirst) {
   const Grid grid = grid_of({"....."});
