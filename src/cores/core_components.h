@@ -25,6 +25,10 @@ class CoreComponents {
   // A core of these agents, in ascending order, has raised the bound by `raised`.
   // `is_unconditional`: it holds for all plans, whatever they cost.
   void add(std::span<const AgentIndex> agents, Cost raised, bool is_unconditional);
+  // Whether a core depends on the agent.
+  bool contains(AgentIndex agent) const {
+    return agent < std::ssize(component_of_) && component_of_[agent] >= 0;
+  }
   // Returns the statements about groups of two agents or more since the last call. They hold for
   // all plans.
   std::vector<GroupExcess> take_excesses() { return std::exchange(excesses_, {}); }

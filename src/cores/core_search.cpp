@@ -23,6 +23,11 @@
 // none of them. The steps above then prove (1) for the sum over S, with the increases by the cores
 // of S and the soft literals of S: S costs at least that much more than the sum of its least costs.
 //
+// Conversely, let it be known that S costs at least k more. If the bound was raised by k' < k by
+// cores of S, the soft literals of S form a core: with all of them true, the sum over S is k',
+// because (1) is an equation for S if each totalizer and each agent of S has its next soft literal
+// and all that follow from it. So the bound can be raised by k in k steps without the solver.
+//
 // *Cutoff.* Agent a of a plan that costs less than the cutoff has an excess of at most E = cutoff -
 // 1 - sum of least costs. If within_a(e) with e >= E is in a core, it becomes a hard clause
 // instead, which holds for all plans below the cutoff; so does the bound from then on. (The cutoff
@@ -46,7 +51,7 @@ namespace grove::detail {
 namespace {
 
 constexpr int kConflictsPerStep = 300;
-constexpr int kConflictsToMinimize = 200;
+constexpr int kConflictsToMinimize = 50;
 constexpr int kConflictsToExhaust = 300;
 constexpr int kRetries = 4;
 
@@ -71,6 +76,8 @@ CoreSearch::Outcome CoreSearch::step(Cost cutoff) {
       return minimize();
     case Phase::kExhaust:
       return exhaust();
+    case Phase::kRelax:
+      return relax();
   }
   GROVE_CHECK(false, "the search is in one of its phases");
 }
@@ -86,12 +93,40 @@ CoreSearch::Outcome CoreSearch::set_up() {
 
 void CoreSearch::add(const GroupExcess& excess) {
   GROVE_CHECK(is_set_up(), "the agents of a statement are planned");
-  if (excess.excess >= kInfiniteCost) return;
-  model_.add(excess);
-  add_new_agents();
+  if (excess.excess < kInfiniteCost) new_statements_.push_back(excess);
+}
+
+// Adds the clauses of one statement. When all have theirs, raises the bound by disjoint ones, those
+// with the greatest excess per agent first.
+CoreSearch::Outcome CoreSearch::use_statement() {
+  if (!new_statements_.empty()) {
+    model_.add(new_statements_.back());
+    add_new_agents();
+    statements_.push_back(std::move(new_statements_.back()));
+    new_statements_.pop_back();
+    if (new_statements_.empty())
+      std::ranges::stable_sort(statements_, [](const GroupExcess& s, const GroupExcess& t) {
+        return s.excess * std::ssize(t.agents) < t.excess * std::ssize(s.agents);
+      });
+    return Outcome::kWorking;
+  }
+  const GroupExcess excess = std::move(statements_.back());
+  statements_.pop_back();
+  const auto is_in_core = [&](AgentIndex agent) { return components_.contains(agent); };
+  if (std::ranges::none_of(excess.agents, is_in_core)) raise_by(excess);
+  return Outcome::kWorking;
+}
+
+void CoreSearch::raise_by(const GroupExcess& excess) {
+  core_ = {};
+  core_.further = excess.excess - 1;
+  for (const AgentIndex agent : excess.agents) core_.softs.push_back(agent_soft(agent, 0));
+  accept_core();
+  start_relaxation();
 }
 
 CoreSearch::Outcome CoreSearch::solve() {
+  if (!new_statements_.empty() || !statements_.empty()) return use_statement();
   switch (solve(active_, kConflictsPerStep)) {
     case SatSolver::Result::kUnknown:
       return stopped_or(Outcome::kWorking);
@@ -165,31 +200,57 @@ void CoreSearch::accept_core() {
 
 // Tests whether more literals of the core are violated.
 CoreSearch::Outcome CoreSearch::exhaust() {
-  if (core_.violated == core_.softs.size()) return relax();
-  const Soft at_most = count_soft(counts_.size() - 1, core_.violated);
-  if (solve({&at_most, 1}, kConflictsToExhaust) != SatSolver::Result::kUnsatisfiable)
-    return limits_.stop_requested() ? Outcome::kStopped : relax();
-  model_.solver().add({-at_most.literal});
-  ++core_.violated;
-  ++lower_bound_;
+  if (core_.violated < core_.softs.size()) {
+    const Soft at_most = count_soft(counts_.size() - 1, core_.violated);
+    if (solve({&at_most, 1}, kConflictsToExhaust) == SatSolver::Result::kUnsatisfiable) {
+      model_.solver().add({-at_most.literal});
+      ++core_.violated;
+      ++lower_bound_;
+      return Outcome::kWorking;
+    }
+    if (limits_.stop_requested()) return Outcome::kStopped;
+  }
+  start_relaxation();
   return Outcome::kWorking;
 }
 
-// Replaces the core by further soft literals.
-CoreSearch::Outcome CoreSearch::relax() {
+void CoreSearch::start_relaxation() {
   components_.add(agents_of(core_.softs), static_cast<Cost>(core_.violated), !depends_on_cutoff_);
+  replacements_.clear();
   if (core_.violated < core_.softs.size())
-    deferred_.push_back(count_soft(counts_.size() - 1, core_.violated));
-  for (const Soft& soft : core_.softs) {
-    if (soft.agent >= 0) {
-      if (raise(soft) != PathModel::Outcome::kDone) return stopped_or(Outcome::kExhausted);
-    } else if (soft.count + 1 < counts_[soft.totalizer].totalizer.input_count()) {
-      deferred_.push_back(count_soft(soft.totalizer, soft.count + 1));
-    }
+    replacements_.push_back(count_soft(counts_.size() - 1, core_.violated));
+  core_.next = 0;
+  phase_ = Phase::kRelax;
+}
+
+// Replaces one literal of the core, or does a part of it.
+CoreSearch::Outcome CoreSearch::relax() {
+  if (core_.next == core_.softs.size()) {
+    finish_relaxation();
+    return Outcome::kWorking;
   }
+  const Soft& soft = core_.softs[core_.next];
+  if (soft.agent >= 0) {
+    const PathModel::Outcome outcome = raise(soft);
+    if (outcome == PathModel::Outcome::kWorking) return Outcome::kWorking;
+    if (outcome != PathModel::Outcome::kDone) return stopped_or(Outcome::kExhausted);
+  } else if (soft.count + 1 < counts_[soft.totalizer].totalizer.input_count()) {
+    replacements_.push_back(count_soft(soft.totalizer, soft.count + 1));
+  }
+  ++core_.next;
+  return Outcome::kWorking;
+}
+
+void CoreSearch::finish_relaxation() {
+  if (core_.further > 0 && !replacements_.empty()) {
+    core_ = {.softs = replacements_, .further = core_.further - 1};
+    accept_core();
+    start_relaxation();
+    return;
+  }
+  deferred_.insert(deferred_.end(), replacements_.begin(), replacements_.end());
   core_ = {};
   phase_ = Phase::kSolve;
-  return Outcome::kWorking;
 }
 
 // Replaces "at most this excess" by "at most one more" or, at the cutoff, makes it a hard clause.
@@ -201,7 +262,7 @@ PathModel::Outcome CoreSearch::raise(const Soft& soft) {
   }
   const PathModel::Outcome outcome = model_.grow(soft.agent);
   if (outcome == PathModel::Outcome::kDone)
-    deferred_.push_back(agent_soft(soft.agent, soft.excess + 1));
+    replacements_.push_back(agent_soft(soft.agent, soft.excess + 1));
   return outcome;
 }
 

@@ -45,7 +45,8 @@ class CoreSearch {
   // True once all agents are planned.
   bool is_set_up() const { return phase_ != Phase::kSetUp; }
   // Adds a proven statement about all plans: `excess.agents` together cost at least `excess.excess`
-  // more than the sum of their least costs. Requires is_set_up().
+  // more than the sum of their least costs. If no core depends on any of these agents, one of the
+  // next calls of step() raises the bound by it. Requires is_set_up().
   void add(const GroupExcess& excess);
   // See CoreComponents::take_excesses().
   std::vector<GroupExcess> take_excesses() { return components_.take_excesses(); }
@@ -63,7 +64,7 @@ class CoreSearch {
   std::int64_t path_conflicts() const { return model_.path_conflicts(); }
 
  private:
-  enum class Phase : std::uint8_t { kSetUp, kSolve, kMinimize, kExhaust };
+  enum class Phase : std::uint8_t { kSetUp, kSolve, kMinimize, kExhaust, kRelax };
   // An assumption of weight 1: "agent `agent` has at most this excess" or "at most `count` of the
   // inputs of totalizer `totalizer` are true".
   struct Soft {
@@ -78,19 +79,24 @@ class CoreSearch {
     Totalizer totalizer;
     std::vector<AgentIndex> agents;
   };
-  // The core that is being minimised or exhausted.
+  // The core that is being minimised, exhausted or replaced.
   struct Core {
     std::vector<Soft> softs;
     std::size_t next = 0;      // index of the literal to leave out next
     int retries = 0;           // models with new conflicts that are left for this literal
     std::size_t violated = 0;  // at least this many of `softs` are false in every plan
+    Cost further = 0;          // by a statement, their replacements are a core so many times more
   };
 
   Outcome set_up();
+  Outcome use_statement();
+  void raise_by(const GroupExcess& excess);
   Outcome solve();
   Outcome minimize();
   Outcome exhaust();
+  void start_relaxation();
   Outcome relax();
+  void finish_relaxation();
   Outcome prove_cutoff();
   void accept_core();
   PathModel::Outcome raise(const Soft& soft);
@@ -111,8 +117,11 @@ class CoreSearch {
   std::vector<Soft> active_;    // assumed
   std::vector<Soft> deferred_;  // from relaxed cores; assumed after the next model
   Core core_;
+  std::vector<Soft> replacements_;  // of the literals of core_
   CoreComponents components_;
-  bool depends_on_cutoff_ = false;  // a hard clause was derived from the cutoff
+  std::vector<GroupExcess> new_statements_;  // of add(); without clauses yet
+  std::vector<GroupExcess> statements_;      // not used yet to raise the bound
+  bool depends_on_cutoff_ = false;           // a hard clause was derived from the cutoff
   Phase phase_ = Phase::kSetUp;
   Cost cutoff_ = kInfiniteCost;
   Cost lower_bound_ = 0;

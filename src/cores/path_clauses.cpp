@@ -42,23 +42,35 @@ PathClauses::PathClauses(SatSolver& solver, AgentIndex agent, const PathGraph& g
       active_(solver.new_variable()) {}
 
 void PathClauses::grow() {
-  const Time level = levels_++;
-  const Literal limit = within(level);
+  const bool is_complete = grow(graph_.count());
+  GROVE_CHECK(is_complete, "all nodes have their clauses");
+}
+
+bool PathClauses::grow(PathGraph::Node max_nodes) {
+  if (next_ == 0) start_level();
+  const PathGraph::Node end = std::min(graph_.count(), next_ + max_nodes);
+  for (; next_ < end; ++next_)
+    if (graph_.excess(next_) <= levels_) add_walk_clauses(next_);
+  if (next_ < graph_.count()) return false;
+  ++levels_;
+  next_ = 0;
+  return true;
+}
+
+void PathClauses::start_level() {
   nodes_.resize(graph_.count(), 0);
   has_all_successors_.resize(graph_.count(), 0);
-  std::vector<Literal> clause{-limit};
+  std::vector<Literal> clause{-within(levels_)};
   for (const PathGraph::Node node : graph_.starts())
-    if (graph_.excess(node) <= level) clause.push_back(literal_of(node));
+    if (graph_.excess(node) <= levels_) clause.push_back(literal_of(node));
   solver_.add(clause);
-  for (PathGraph::Node node = 0; node < graph_.count(); ++node)
-    if (graph_.excess(node) <= level) add_walk_clauses(node);
 }
 
 // A final node needs no successor. Once a node has all its successors, one clause covers all
 // levels.
 void PathClauses::add_walk_clauses(PathGraph::Node node) {
   if (graph_.is_final(node) || has_all_successors_[node] != 0) return;
-  const Time level = levels_ - 1;
+  const Time level = levels_;
   std::vector<Literal> clause{-literal_of(node)};
   for (const PathGraph::Node next : graph_.successors(node))
     if (graph_.excess(next) <= level) clause.push_back(literal_of(next));

@@ -29,7 +29,10 @@ class PathClauses {
 
   // Adds the clauses for one more unit of excess, from 0 on, to which the graph has grown.
   void grow();
-  // Number of calls of grow().
+  // Adds those of at most `max_nodes` nodes of the graph, and returns whether they are complete.
+  // Until then, the solver must not be called.
+  bool grow(PathGraph::Node max_nodes);
+  // Units of excess with complete clauses.
   Time levels() const { return levels_; }
   // Literal for "the agent costs at most least_cost() + `excess`"; `excess` may be >= levels().
   Literal within(Time excess);
@@ -54,6 +57,7 @@ class PathClauses {
 
   Literal literal_of(PathGraph::Node node);
   Literal literal_of(const Presence& presence);
+  void start_level();
   void add_walk_clauses(PathGraph::Node node);
   void restrict_presence(const ConstraintLiteral& by, const Presence& presence);
   void restrict_move(const ConstraintLiteral& by, const Presence& presence);
@@ -67,6 +71,7 @@ class PathClauses {
   const bool is_node_presence_;  // no two nodes have the same presence
   const Literal active_;
   Time levels_ = 0;
+  PathGraph::Node next_ = 0;                      // first node without clauses for the next level
   std::vector<Literal> nodes_;                    // by node; 0: no literal yet
   std::vector<std::uint8_t> has_all_successors_;  // by node: in a clause for all levels
   std::vector<Literal> within_;                   // by excess

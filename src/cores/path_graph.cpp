@@ -42,28 +42,36 @@ std::size_t PathGraph::KeyHash::operator()(const Key& key) const {
 PathGraph::PathGraph(AgentStops& stops, Time least_cost)
     : world_(stops.instance().world()), goals_(stops, SequenceClass{}), least_cost_(least_cost) {}
 
-PathGraph::Outcome PathGraph::grow(Time excess, std::size_t max_nodes, const Limits& limits) {
+PathGraph::Outcome PathGraph::grow(Time excess, std::size_t max_visits, std::size_t max_nodes,
+                                   const Limits& limits) {
   latest_ = least_cost_ + excess;
-  CostToGo& cost_to_go = goals_.cost_to_go();
-  if (cost_to_go.outside_bound() <= latest_ && !cost_to_go.extend(latest_, limits))
-    return limits.stop_requested() ? Outcome::kStopped : Outcome::kTooLarge;
-  start();
-  for (std::size_t i = 0; i < queue_.size(); ++i) {
+  if (!is_growing_) {
+    CostToGo& cost_to_go = goals_.cost_to_go();
+    if (cost_to_go.outside_bound() <= latest_ && !cost_to_go.extend(latest_, limits))
+      return limits.stop_requested() ? Outcome::kStopped : Outcome::kTooLarge;
+    start();
+  }
+  for (; expanded_ < queue_.size(); ++expanded_) {
+    if (max_visits-- == 0) return Outcome::kGrowing;
     if (nodes_.size() > max_nodes) return Outcome::kTooLarge;
-    if (i % kNodesPerPoll == 0 && limits.stop_requested()) return Outcome::kStopped;
-    const auto [node, stage] = queue_[i];
+    if (expanded_ % kNodesPerPoll == 0 && limits.stop_requested()) return Outcome::kStopped;
+    const auto [node, stage] = queue_[expanded_];
     nodes_[node].first = static_cast<std::int32_t>(successors_.size());
     expand(node, stage);
     nodes_[node].end = static_cast<std::int32_t>(successors_.size());
+    ++visited_;
   }
-  visited_ += std::ssize(queue_);
   find_excesses();
   queue_ = {};
+  is_growing_ = false;
+  grown_ = excess;
   return Outcome::kGrown;
 }
 
 void PathGraph::start() {
+  is_growing_ = true;
   queue_.clear();
+  expanded_ = 0;
   is_queued_.assign(nodes_.size(), 0);
   numbers_of_stages_.clear();
   successors_.clear();

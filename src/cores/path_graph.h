@@ -28,6 +28,7 @@ class PathGraph {
 
   enum class Outcome : std::uint8_t {
     kGrown,
+    kGrowing,   // `max_visits` was reached
     kTooLarge,  // more than `max_nodes` nodes, or the costs to go would become too large
     kStopped,   // a limit was reached
   };
@@ -35,9 +36,12 @@ class PathGraph {
   // `least_cost`: the agent's least cost. `stops` must outlive this object.
   PathGraph(AgentStops& stops, Time least_cost);
 
-  // Adds all nodes with excess <= `excess`. If the outcome is not kGrown, the graph must not be
-  // used any more.
-  Outcome grow(Time excess, std::size_t max_nodes, const Limits& limits);
+  // Adds all nodes with excess <= `excess`, and visits at most `max_visits` nodes. After kGrowing,
+  // call it again with the same arguments; until it returns kGrown, use only grown() and visited().
+  // After kTooLarge and kStopped, the graph must not be used any more.
+  Outcome grow(Time excess, std::size_t max_visits, std::size_t max_nodes, const Limits& limits);
+  // The greatest excess to which the graph has grown; -1: none.
+  Time grown() const { return grown_; }
 
   Time least_cost() const { return least_cost_; }
   // Number of nodes. Some of them may have an excess above the greatest value for which the graph
@@ -110,9 +114,12 @@ class PathGraph {
   std::unordered_map<Key, Node, KeyHash> numbers_;
   std::map<std::pair<StopSet, StopSet>, std::int32_t> stage_numbers_;  // by Stage::left and ::rests
   std::int64_t visited_ = 0;
-  // Of the current call of grow().
+  Time grown_ = -1;
+  // Of the current growth.
+  bool is_growing_ = false;
   Time latest_ = 0;
   std::vector<std::pair<Node, StageId>> queue_;  // in order of time
+  std::size_t expanded_ = 0;                     // of queue_
   std::vector<std::uint8_t> is_queued_;          // by node
   std::vector<std::int32_t> numbers_of_stages_;  // by StageId; -1: not known yet
 };

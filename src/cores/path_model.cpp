@@ -37,6 +37,7 @@ namespace {
 
 constexpr std::size_t kMaxNodes = std::size_t{1} << 21;  // of one agent's graph
 constexpr int kMaxExcessClauses = 100;                   // of a statement of add()
+constexpr int kNodesPerStep = 10'000;                    // of grow()
 
 }  // namespace
 
@@ -63,7 +64,7 @@ PathModel::Outcome PathModel::plan_next_agent() {
   if (outcome != PathOutcome::kFound)
     return limits_.stop_requested() ? Outcome::kStopped : Outcome::kTooLarge;
   Agent agent{.graph = std::make_unique<PathGraph>(stops, static_cast<Time>(path.size()) - 1)};
-  if (const Outcome grown = grow(*agent.graph, 0); grown != Outcome::kDone) return grown;
+  if (const Outcome grown = grow(*agent.graph, 0, kMaxNodes); grown != Outcome::kDone) return grown;
   agent.walk = walk_with_fewest_conflicts(*agent.graph);
   least_sum_ += agent.graph->least_cost();
   paths_[index] = path_of(agent);
@@ -104,19 +105,31 @@ std::vector<PathGraph::Node> PathModel::walk_with_fewest_conflicts(const PathGra
   return walk;
 }
 
-PathModel::Outcome PathModel::grow(PathGraph& graph, Time excess) {
+PathModel::Outcome PathModel::grow(PathGraph& graph, Time excess, std::size_t max_visits) {
   const std::int64_t visited = graph.visited();
-  const auto grown = graph.grow(excess, kMaxNodes, limits_);
-  work_ += (graph.visited() - visited) / effort::kTimedNodes;
-  if (grown == PathGraph::Outcome::kGrown) return Outcome::kDone;
-  return limits_.stop_requested() ? Outcome::kStopped : Outcome::kTooLarge;
+  const auto grown = graph.grow(excess, max_visits, kMaxNodes, limits_);
+  work_ += graph.visited() - visited;
+  switch (grown) {
+    case PathGraph::Outcome::kGrown:
+      return Outcome::kDone;
+    case PathGraph::Outcome::kGrowing:
+      return Outcome::kWorking;
+    case PathGraph::Outcome::kTooLarge:
+      return Outcome::kTooLarge;
+    case PathGraph::Outcome::kStopped:
+      return Outcome::kStopped;
+  }
+  GROVE_CHECK(false, "growth has one of four outcomes");
 }
 
 PathModel::Outcome PathModel::grow(AgentIndex index) {
   Agent& agent = agents_[index];
-  const Outcome outcome = grow(*agent.graph, agent.clauses->levels());
-  if (outcome == Outcome::kDone) agent.clauses->grow();
-  return outcome;
+  const Time excess = agent.clauses->levels();
+  if (agent.graph->grown() < excess) {
+    const Outcome outcome = grow(*agent.graph, excess, kNodesPerStep);
+    return outcome == Outcome::kDone ? Outcome::kWorking : outcome;
+  }
+  return agent.clauses->grow(kNodesPerStep) ? Outcome::kDone : Outcome::kWorking;
 }
 
 void PathModel::limit(AgentIndex agent, Time excess) {

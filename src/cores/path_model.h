@@ -33,6 +33,7 @@ class PathModel {
  public:
   enum class Outcome : std::uint8_t {
     kDone,
+    kWorking,   // the function must be called again, with the same arguments
     kTooLarge,  // an agent has no path, or its paths would need too much memory
     kStopped,   // a limit was reached
   };
@@ -50,7 +51,7 @@ class PathModel {
   SatSolver& solver() { return solver_; }
   // Literal for "the agent costs at most `excess` more than its least cost".
   Literal within(AgentIndex agent, Time excess) { return clauses_of(agent).within(excess); }
-  // Extends the clauses of an agent by one unit of excess.
+  // Extends the clauses of an agent by one unit of excess, in steps of limited effort.
   Outcome grow(AgentIndex agent);
   // Adds a hard clause: the agent costs at most `excess` more than its least cost.
   void limit(AgentIndex agent, Time excess);
@@ -87,7 +88,7 @@ class PathModel {
     bool is_limited = false;  // by limit()
   };
 
-  Outcome grow(PathGraph& graph, Time excess);
+  Outcome grow(PathGraph& graph, Time excess, std::size_t max_visits);
   std::vector<PathGraph::Node> walk_with_fewest_conflicts(const PathGraph& graph) const;
   PathClauses& clauses_of(AgentIndex agent);
   void read_walks();

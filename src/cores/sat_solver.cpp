@@ -100,8 +100,7 @@ std::int64_t SatSolver::conflicts() const {
 
 std::int64_t SatSolver::work() const {
   return solves_work_ + solver_->watcher.rounds * effort::kPerSolverRound +
-         solver_->watcher.conflicts * effort::kPerSolverConflict +
-         literals_ / effort::kClauseLiterals;
+         solver_->watcher.conflicts * effort::kPerSolverConflict + literals_;
 }
 
 std::size_t SatSolver::bytes() const {

@@ -20,14 +20,14 @@
 // | preparation | primal | never due                 |                          |       |        |
 // | lagrangian  | bound  | lagrangian_start_work [b] | lagrangian_max_share [c] | 0     | wanted |
 // | joint       | bound  | joint_start_work          | joint_max_share          | 0     | wanted |
-// | cores       | bound  | cores_start_work          | ratio of progress        | [d]   | [d]    |
+// | cores       | bound  | cores_start_work          | ratio of efforts left    | [d]   | [d]    |
 //
 // The formulas of each component are at the head of its file in engine/components.
 // [a] With a plan, where x = (effort at the component's last gain) / (its effort so far).
 // [b] Ten times as much without a plan.
 // [c] Times the number of ranks, on rank 0. On other ranks its claim is urgent after the first
 //     request from rank 0.
-// [d] cores_min_share and cores_max_share.
+// [d] cores_min_share; cores_max_share, before cores_early_work cores_early_share.
 #include "engine/scheduler.h"
 
 #include <algorithm>

@@ -89,9 +89,14 @@ TEST(PathClauses, AgreeWithTheLowLevel) {
       literals.push_back(clauses.satisfies(all.back()));
     };
     for (Time level = 0; level < kLevels; ++level) {
-      ASSERT_EQ(graph.grow(level, 1'000'000, limits), PathGraph::Outcome::kGrown);
+      const std::size_t visits = random.percent(50) ? 7 : 1'000'000;
+      auto grown = PathGraph::Outcome::kGrowing;
+      while (grown == PathGraph::Outcome::kGrowing)
+        grown = graph.grow(level, visits, 1'000'000, limits);
+      ASSERT_EQ(grown, PathGraph::Outcome::kGrown);
       if (random.percent(50)) add_constraint();
-      clauses.grow();
+      while (!clauses.grow(random.percent(50) ? 5 : 1'000'000)) {
+      }
       for (int i = 0; i < 3; ++i) add_constraint();
       for (int round = 0; round < 6; ++round) {
         std::vector<Constraint> some;

@@ -24,7 +24,7 @@ int check_work(const Instance& instance, AgentIndex agent) {
   const World& world = instance.world();
   if (FreeOrderSipp(world).find(goals, PathQuery{}, limits, path) != PathOutcome::kFound) return 0;
   PathGraph graph(stops, static_cast<Time>(path.size()) - 1);
-  EXPECT_EQ(graph.grow(3, 1'000'000, limits), PathGraph::Outcome::kGrown);
+  EXPECT_EQ(graph.grow(3, 1'000'000, 1'000'000, limits), PathGraph::Outcome::kGrown);
   int working = 0;
   for (PathGraph::Node node = 0; node < graph.count(); ++node) {
     if (!world.is_working(graph.state(node))) continue;

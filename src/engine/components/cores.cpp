@@ -4,15 +4,22 @@
 // *Share.* It is not known in advance whether tree search or cores prove a bound sooner. In a tree,
 // the numbers of nodes for independent groups of agents multiply; with cores, the efforts for the
 // groups add up. In narrow maps the tree search is often faster, because it reasons about corridors
-// and groups. The tree search starts alone, because its first
-// nodes solve most instances. After cores_start_work the cores get, per unit of other effort,
+// and groups. The tree search starts alone, because its first nodes solve most instances. After
+// cores_start_work the cores get, per unit of other effort,
 //
-//   cores_max_share                      if their bound is the global bound
-//   (g_t / r_t) / (g_c / r_c)            otherwise, within cores_min_share .. cores_max_share
+//   0.1 (g_t / r_t) / (g_c / r_c)   once they have a bound
+//   0.05 (g_t / r_t) / e_t          before, where e_t is the other effort so far
 //
-// where g is the gap between the cost of the incumbent and a bound (global: t, cores: c), and r is
-// the rate at which the bound has risen over about the latter half of the effort. g / r estimates
-// the effort that is left until the gap is closed. Without an incumbent the share is 1.
+// within cores_min_share .. cores_max_share, or cores_early_share until cores_early_work, so that
+// an instance that the tree search soon solves is not delayed by much. g is the gap between the
+// cost of the incumbent and a bound (t: of the tree search and the other components; c: of the
+// cores), and r is the rate at which the bound has risen over about the latter half of the effort,
+// so g / r estimates the effort that is left. Without an incumbent the share is 1 or
+// cores_early_share.
+//
+// *Measured*, from the bounds over time of either search alone, 88 instances of seven maps, with
+// and without tasks: where the tree search proves the optimum, the run takes 1.04 of its time in
+// the geometric mean; where the cores do, 1.17 of theirs. Both together solve more than either.
 //
 // *Statements about groups.* "These agents together cost at least k more than individually" holds
 // at the root of the only tree, where no agent has a constraint. Both searches prove such
@@ -41,6 +48,10 @@ namespace grove::detail {
 namespace {
 
 constexpr double kMaxPart = 0.99;  // of a worker's time
+constexpr double kShare = 0.1;     // per unit of other effort, if both have as much effort left
+constexpr double kFirstShare =
+    0.05;  // without a bound, if the others have done half of their effort
+constexpr double kLeastRate = 1e-12;
 
 constexpr std::size_t kMaxCoresBytes = std::size_t{4} << 30;
 
@@ -108,6 +119,7 @@ class CoresWork : public WorkSource {
   std::unique_ptr<CoreSearch> search_;  // made when first due
   Cost proven_ = 0;                     // the greatest bound so far
   std::atomic<std::int64_t> work_{0};
+  mutable Cost others_bound_ = 0;
   mutable RiseRate others_rate_;
   mutable RiseRate rate_;
   std::int64_t read_at_ = 0;  // effort at which the statements of the tree search were read
@@ -176,8 +188,10 @@ void CoresWork::exchange_excesses() {
 
 Share CoresWork::share(std::int64_t lower_tier_effort) const {
   const Tuning& tuning = context_.options.tuning;
-  const double of_run = std::clamp(wanted(lower_tier_effort), tuning.cores_min_share,
-                                   std::max(tuning.cores_min_share, tuning.cores_max_share));
+  const bool is_early = lower_tier_effort < tuning.cores_early_work;
+  const double most = is_early ? tuning.cores_early_share : tuning.cores_max_share;
+  const double least = std::min(tuning.cores_min_share, most);
+  const double of_run = std::clamp(wanted(lower_tier_effort), least, most);
   const int threads = context_.options.deterministic ? 1 : context_.options.threads;
   const double part = std::min(kMaxPart, threads * of_run / (1 + of_run));
   const double own = threads == 1 ? of_run : part / (1 - part);
@@ -187,13 +201,19 @@ Share CoresWork::share(std::int64_t lower_tier_effort) const {
 double CoresWork::wanted(std::int64_t lower_tier_effort) const {
   const Cost cutoff = context_.bounds.cutoff();
   const Cost bound = context_.bounds.lower_bound();
-  others_rate_.update(lower_tier_effort, bound);
+  const Frontier& frontier = context_.nodes.frontier;
+  if (bound > proven_)
+    others_bound_ = bound;
+  else if (frontier.live() > 0)
+    others_bound_ = std::max(others_bound_, std::min(bound, frontier.bound()));
+  others_rate_.update(lower_tier_effort, others_bound_);
   rate_.update(work_, proven_);
-  if (proven_ >= bound) return context_.options.tuning.cores_max_share;
-  if (cutoff >= kInfiniteCost || proven_ == 0) return 1;
-  const double others_gap = static_cast<double>(cutoff - bound);
-  const double gap = static_cast<double>(cutoff - proven_);
-  return others_gap * rate_.rate() / std::max(gap * others_rate_.rate(), 1e-12);
+  if (cutoff >= kInfiniteCost) return 1;
+  const double others_left =
+      static_cast<double>(cutoff - others_bound_) / std::max(others_rate_.rate(), kLeastRate);
+  if (proven_ == 0) return kFirstShare * others_left / static_cast<double>(lower_tier_effort + 1);
+  const double left = static_cast<double>(cutoff - proven_) / std::max(rate_.rate(), kLeastRate);
+  return kShare * others_left / std::max(left, 1.0);
 }
 
 class CoresComponent : public Component {
