@@ -37,7 +37,10 @@ class SatSolver::Solver {
  public:
   explicit Solver(const Limits& limits) : watcher(limits) {
     solver.set("quiet", 1);
-    solver.set("elim", 0);  // later clauses would bring eliminated variables back
+    // Inprocessing takes more time than it saves, because clauses are added all the time. Models
+    // need few nodes, so variables are false by default. (Fourteen instances: 0.84 of the time.)
+    solver.set("inprocessing", 0);
+    solver.set("phase", 0);
     solver.connect_terminator(&watcher);
     solver.connect_learner(&watcher);
   }

@@ -27,7 +27,7 @@
 // [b] Ten times as much without a plan.
 // [c] Times the number of ranks, on rank 0. On other ranks its claim is urgent after the first
 //     request from rank 0.
-// [d] cores_min_share; cores_max_share, before cores_early_work cores_early_share.
+// [d] k / 4; cores_max_share, before cores_early_work k (engine/components/cores.cpp).
 #include "engine/scheduler.h"
 
 #include <algorithm>

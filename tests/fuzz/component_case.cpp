@@ -118,7 +118,7 @@ void choose_techniques(Part part, SolveOptions& options, Random& random) {
     case Part::kCores:
       options.techniques = of_tree(random).with(Technique::kCores);
       tuning.cores_start_work = 0;
-      tuning.cores_max_share = kAtOnce;
+      tuning.cores_share = tuning.cores_share_with_tasks = tuning.cores_max_share = kAtOnce;
       return;
     case Part::kSequences:
       options.policy = Policy::kFixed;
