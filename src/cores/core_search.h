@@ -85,7 +85,7 @@ class CoreSearch {
     std::size_t next = 0;      // index of the literal to leave out next
     int retries = 0;           // models with new conflicts that are left for this literal
     std::size_t violated = 0;  // at least this many of `softs` are false in every plan
-    Cost further = 0;          // by a statement, their replacements are a core so many times more
+    Cost further = 0;          // further cores that a statement makes of the replacements
   };
 
   Outcome set_up();
