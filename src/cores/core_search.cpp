@@ -58,8 +58,12 @@ constexpr int kRetries = 4;
 }  // namespace
 
 CoreSearch::CoreSearch(const Problem& problem, const AgentStopsCache& stops, Techniques techniques,
-                       std::size_t max_bytes, const Limits& limits)
-    : max_bytes_(max_bytes), limits_(limits), model_(problem, stops, techniques, limits) {}
+                       std::size_t max_bytes, const Limits& limits, std::uint64_t seed)
+    : max_bytes_(max_bytes),
+      limits_(limits),
+      random_(seed),
+      is_shuffled_(seed != 0),
+      model_(problem, stops, techniques, limits) {}
 
 CoreSearch::Outcome CoreSearch::step(Cost cutoff) {
   GROVE_CHECK(cutoff <= cutoff_, "the cutoff never rises");
@@ -279,7 +283,11 @@ std::int64_t CoreSearch::add_conflicts() {
 }
 
 void CoreSearch::add_new_agents() {
-  for (const AgentIndex agent : model_.take_new_agents()) active_.push_back(agent_soft(agent, 0));
+  for (const AgentIndex agent : model_.take_new_agents()) {
+    active_.push_back(agent_soft(agent, 0));
+    // The order of assumptions decides which core the solver finds.
+    if (is_shuffled_) std::swap(active_.back(), active_[random_.below(active_.size())]);
+  }
 }
 
 // The agents on which soft literals depend, in ascending order.

@@ -14,6 +14,7 @@
 #include "cores/totalizer.h"
 #include "model/limits.h"
 #include "model/plan.h"
+#include "model/random.h"
 #include "planning/agent_stops_cache.h"
 #include "planning/problem.h"
 #include "search/covering.h"
@@ -34,9 +35,9 @@ class CoreSearch {
   };
 
   // All arguments must outlive this object, except `stops`, which is copied. Uses at most about
-  // `max_bytes`.
+  // `max_bytes`. Searches with different seeds find different cores; 0: agents in their order.
   CoreSearch(const Problem& problem, const AgentStopsCache& stops, Techniques techniques,
-             std::size_t max_bytes, const Limits& limits);
+             std::size_t max_bytes, const Limits& limits, std::uint64_t seed = 0);
 
   // Plans an agent, or calls the SAT solver for a limited number of conflicts. `cutoff`: plans of
   // this cost or more are of no interest; must not rise from call to call.
@@ -112,6 +113,8 @@ class CoreSearch {
 
   const std::size_t max_bytes_;
   const Limits& limits_;
+  Random random_;
+  const bool is_shuffled_;
   PathModel model_;
   std::vector<Count> counts_;
   std::vector<Soft> active_;    // assumed

@@ -28,6 +28,8 @@
 // which none of these agents has a constraint; in a distributed run they are sent to the other
 // ranks. They are exchanged in commit(), at the same point of every deterministic run.
 //
+// *Ranks.* Each rank searches in another order of the agents, so that they find different cores.
+//
 // *Threads.* It is one sequential search, which one worker performs: worker 0 if there is one
 // thread or the run is deterministic, else worker 1. With T threads, that worker alone cannot give
 // w units per unit of effort of all T workers if w is large. It gives the part f = min(1, T w / (1
@@ -163,7 +165,8 @@ CoresWork::Progress CoresWork::run() {
   if (!search_)
     search_ = std::make_unique<CoreSearch>(
         context_.problem, context_.stops, techniques_of(context_.options),
-        at_most_a_quarter(kMaxCoresBytes, context_.limits), context_.limits);
+        at_most_a_quarter(kMaxCoresBytes, context_.limits), context_.limits,
+        static_cast<std::uint64_t>(context_.rank));
   const std::int64_t before = search_->work();
   over_ = search_->step(context_.bounds.cutoff()) != CoreSearch::Outcome::kWorking;
   Progress progress{search_->lower_bound(), search_->plan(), search_->work() - before};
