@@ -36,7 +36,7 @@ class CoreSearch {
   // All arguments must outlive this object, except `stops`, which is copied. Uses at most about
   // `max_bytes`.
   CoreSearch(const Problem& problem, const AgentStopsCache& stops, Techniques techniques,
-             std::size_t max_bytes, const Limits& limits);
+             std::size_t max_bytes, const Limits& limits, ProofLog* proof = nullptr);
 
   // Plans an agent, or calls the SAT solver for a limited number of conflicts. `cutoff`: plans of
   // this cost or more are of no interest; must not rise from call to call.
@@ -93,6 +93,7 @@ class CoreSearch {
   Outcome relax();
   Outcome prove_cutoff();
   void accept_core();
+  void log_core(std::int64_t sum) { model_.solver().log(FormulaKind::kCore, {sum}); }
   PathModel::Outcome raise(const Soft& soft);
 
   SatSolver::Result solve(std::span<const Soft> assumed, int max_conflicts);

@@ -41,7 +41,7 @@ constexpr int kMaxExcessClauses = 100;                   // of a statement of ad
 }  // namespace
 
 PathModel::PathModel(const Problem& problem, const AgentStopsCache& stops, Techniques techniques,
-                     const Limits& limits)
+                     const Limits& limits, ProofLog* proof)
     : problem_(problem),
       techniques_(techniques),
       limits_(limits),
@@ -49,7 +49,7 @@ PathModel::PathModel(const Problem& problem, const AgentStopsCache& stops, Techn
       low_level_(problem.instance.world()),
       finder_(problem.instance.world(), problem.instance.may_follow()),
       first_paths_(problem.instance.world()),
-      solver_(limits),
+      solver_(limits, proof),
       paths_(static_cast<std::size_t>(problem.instance.agent_count())) {}
 
 PathModel::Outcome PathModel::plan_next_agent() {
@@ -148,10 +148,17 @@ SatSolver::Result PathModel::solve(std::vector<Literal> assumptions,
                                    std::span<const AgentIndex> needed, int max_conflicts) {
   std::vector<std::uint8_t> is_needed(agents_.size(), 0);
   for (const AgentIndex agent : needed) is_needed[agent] = 1;
+  const auto count = std::ssize(assumptions);
   for (std::size_t agent = 0; agent < agents_.size(); ++agent)
     if (agents_[agent].clauses && is_needed[agent] == 0 && !agents_[agent].is_limited)
       assumptions.push_back(-agents_[agent].clauses->active());
-  return solver_.solve(assumptions, max_conflicts);
+  const SatSolver::Result result = solver_.solve(assumptions, max_conflicts);
+  if (result != SatSolver::Result::kUnsatisfiable || !solver_.has_proof()) return result;
+  // The core must follow by unit propagation without these assumptions.
+  const auto others = std::span(assumptions).subspan(static_cast<std::size_t>(count));
+  if (std::ranges::none_of(others, [&](Literal literal) { return solver_.failed(literal); }))
+    return result;
+  return solver_.solve(std::span(assumptions).first(static_cast<std::size_t>(count)), max_conflicts);
 }
 
 void PathModel::read_walks() {
@@ -186,13 +193,16 @@ std::int64_t PathModel::add_conflicts() {
 
 void PathModel::add_split(const Conflict& conflict, const Split& split) {
   std::vector<Literal> clause;
+  std::vector<std::int64_t> sides;
   for (const AgentConstraint& side : split) {
     const Literal literal = clauses_of(side.agent).satisfies(side.constraint);
     clause.push_back(literal);
+    sides.push_back(literal);
     if (!constrains_all_agents(side.constraint)) continue;
     const AgentIndex other = side.agent == conflict.first ? conflict.second : conflict.first;
     solver_.add({-literal, clauses_of(other).satisfies(*constraint_on(other, side))});
   }
+  solver_.log(FormulaKind::kSplit, sides);
   solver_.add(clause);
 }
 
@@ -219,7 +229,6 @@ Path PathModel::path_of(const Agent& agent) const {
   return path;
 }
 
-// A walk may wait within a task execution; in the plan, the wait follows the execution.
 Plan PathModel::plan() const {
   GROVE_CHECK(is_complete() && has_all_paths(), "a plan has a path for each agent");
   Plan plan;

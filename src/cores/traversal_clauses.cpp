@@ -10,9 +10,10 @@
 
 namespace grove::detail {
 
-TraversalClauses::TraversalClauses(SatSolver& solver, const Corridors& corridors,
-                                   const Constraint& c)
+TraversalClauses::TraversalClauses(SatSolver& solver, AgentIndex agent,
+                                   const Corridors& corridors, const Constraint& c)
     : solver_(&solver),
+      agent_(agent),
       corridors_(&corridors),
       corridor_(corridors.corridor_of(c.from)),
       last_inner_(c.from),
@@ -60,14 +61,15 @@ void TraversalClauses::forbid(Time begin, Time end, Literal unless) {
 
 Literal TraversalClauses::inside(Time time) {
   Literal& literal = inside_[time];
-  if (literal == 0) literal = solver_->new_variable();
+  if (literal == 0)
+    literal = solver_->new_variable(FormulaKind::kInside, {agent_, last_inner_, exit_, time});
   return literal;
 }
 
 Literal TraversalClauses::ends(Time arrival) {
   Literal& literal = ends_[arrival];
   if (literal == 0) {
-    literal = solver_->new_variable();
+    literal = solver_->new_variable(FormulaKind::kEnds, {agent_, last_inner_, exit_, arrival});
     for (const Ban& ban : bans_)
       if (ban.begin <= arrival && arrival <= ban.end) solver_->add({-ban.unless, -literal});
   }
