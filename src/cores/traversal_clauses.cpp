@@ -30,7 +30,7 @@ void TraversalClauses::add(const Presence& presence, Literal literal,
                            const PresenceLiterals& presences) {
   const auto [place, time, is_last] = presence;
   if (!is_inner(place) && place != entry_ && place != exit_) return;
-  if (is_inner(place)) solver_->add({-inside(time - 1), -literal, inside(time)});
+  if (is_inner(place) && time > 0) solver_->add({-inside(time - 1), -literal, inside(time)});
   const auto with_before = [&](Place before) {
     if (const Literal from = presences.find({before, time - 1, false}))
       link(before, place, from, literal, time);
