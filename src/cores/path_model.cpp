@@ -75,17 +75,16 @@ PathModel::Outcome PathModel::plan_next_agent() {
 // Of the walks of least cost, one with the fewest conflicts with the first paths of the agents
 // before. The graph has grown once, so its nodes are numbered in order of time.
 std::vector<PathGraph::Node> PathModel::walk_with_fewest_conflicts(const PathGraph& graph) const {
-  using Node = PathGraph::Node;
-  constexpr Node kNone = -1;
+  constexpr PathGraph::Node kNone = -1;
   std::vector<int> conflicts(static_cast<std::size_t>(graph.count()));
-  std::vector<Node> next(conflicts.size(), kNone);
-  for (Node node = graph.count(); node-- > 0;) {
+  std::vector<PathGraph::Node> next(conflicts.size(), kNone);
+  for (PathGraph::Node node = graph.count(); node-- > 0;) {
     if (graph.excess(node) > 0) continue;
     if (graph.is_final(node)) {
       conflicts[node] = first_paths_.conflicts_of_resting(graph.place(node), graph.arrival(node));
       continue;
     }
-    for (const Node to : graph.successors(node)) {
+    for (const PathGraph::Node to : graph.successors(node)) {
       if (graph.excess(to) > 0) continue;
       const int then = conflicts[to] +
                        first_paths_.conflicts(graph.place(node), graph.place(to), graph.time(to));
@@ -95,11 +94,11 @@ std::vector<PathGraph::Node> PathModel::walk_with_fewest_conflicts(const PathGra
       }
     }
   }
-  Node node = kNone;
-  for (const Node start : graph.starts())
+  PathGraph::Node node = kNone;
+  for (const PathGraph::Node start : graph.starts())
     if (graph.excess(start) == 0 && (node == kNone || conflicts[start] < conflicts[node]))
       node = start;
-  std::vector<Node> walk;
+  std::vector<PathGraph::Node> walk;
   for (; node != kNone; node = next[node]) walk.push_back(node);
   return walk;
 }

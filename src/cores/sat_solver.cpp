@@ -168,8 +168,6 @@ std::int64_t SatSolver::log_sum(std::span<const Literal> inputs) {
 }
 
 void SatSolver::add(std::span<const Literal> clause) {
-  if (proof_ != nullptr && std::getenv("GROVE_LOG_INPUT"))
-    log(FormulaKind::kClause, std::vector<std::int64_t>(clause.begin(), clause.end()));
   for (const Literal literal : clause) {
     GROVE_ASSERT(literal != 0 && std::abs(literal) <= variables_, "a clause has known variables");
     solver_->solver.add(literal);
