@@ -376,11 +376,11 @@ impl Verifier {
             match name {
                 "meets" => formula.meets(self.constraint(rest, of)?)?,
                 "node" => {
-                    let mut tokens = Tokens::of(rest);
+                    let mut tokens = Tokens::rest(rest);
                     let agent = tokens.index(agents, "agent")?;
                     formula.node(agent, self.model(agent), places, &mut tokens)?;
                 }
-                _ if !formula.define(name, &mut Tokens::of(rest), places, &self.chains)? => break,
+                _ if !formula.define(name, &mut Tokens::rest(rest), places, &self.chains)? => break,
                 _ => (),
             }
             line = self.line()?;
@@ -391,7 +391,7 @@ impl Verifier {
         if !proven { self.add_clauses(&mut formula, &costs, Some(of.bound - 1 - sum).filter(|_| of.bound < INFINITE))?; }
         while line != "end" {
             let (name, rest) = line.split_once(' ').unwrap_or((line.as_str(), ""));
-            let known = proven || formula.step(name, &mut Tokens::of(rest))?;
+            let known = proven || formula.step(name, &mut Tokens::rest(rest))?;
             if !known { return Err(unreadable("expected a line of a formula")); }
             line = self.line()?;
         }

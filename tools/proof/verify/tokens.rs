@@ -38,6 +38,13 @@ fn parse(token: &str) -> Result<u64, Fault> {
 impl<'a> Tokens<'a> {
     pub fn of(line: &'a str) -> Tokens<'a> { Tokens(line.split(' ')) }
 
+    /// The words of a line without a word that begins it, perhaps none.
+    pub fn rest(text: &'a str) -> Tokens<'a> {
+        let mut words = Tokens::of(text);
+        if text.is_empty() { words.0.next(); }
+        words
+    }
+
     pub fn more(&self) -> bool { self.0.clone().next().is_some() }
 
     pub fn token(&mut self) -> Result<&'a str, Fault> {
