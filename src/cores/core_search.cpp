@@ -58,12 +58,13 @@ constexpr int kRetries = 4;
 }  // namespace
 
 CoreSearch::CoreSearch(const Problem& problem, const AgentStopsCache& stops, Techniques techniques,
-                       std::size_t max_bytes, const Limits& limits, std::uint64_t seed)
+                       std::size_t max_bytes, const Limits& limits, ProofLog* proof,
+                       std::uint64_t seed)
     : max_bytes_(max_bytes),
       limits_(limits),
       random_(seed),
       is_shuffled_(seed != 0),
-      model_(problem, stops, techniques, limits) {}
+      model_(problem, stops, techniques, limits, proof) {}
 
 CoreSearch::Outcome CoreSearch::step(Cost cutoff) {
   GROVE_CHECK(cutoff <= cutoff_, "the cutoff never rises");
@@ -156,6 +157,7 @@ CoreSearch::Outcome CoreSearch::solve() {
 
 // The hard clauses, which hold for all plans below the cutoff, have no model.
 CoreSearch::Outcome CoreSearch::prove_cutoff() {
+  model_.solver().log(FormulaKind::kClause, {});
   lower_bound_ = cutoff_;
   return Outcome::kSolved;
 }
@@ -196,10 +198,11 @@ void CoreSearch::accept_core() {
   });
   ++cores_;
   ++lower_bound_;
-  if (core_.softs.size() == 1) return;
   std::vector<Literal> inputs;
   for (const Soft& soft : core_.softs) inputs.push_back(-soft.literal);
+  if (inputs.size() == 1) return log_core(model_.solver().log_sum(inputs));
   counts_.push_back({Totalizer(model_.solver(), inputs), agents_of(core_.softs)});
+  log_core(counts_.back().totalizer.number());
 }
 
 // Tests whether more literals of the core are violated.
@@ -207,7 +210,9 @@ CoreSearch::Outcome CoreSearch::exhaust() {
   if (core_.violated < core_.softs.size()) {
     const Soft at_most = count_soft(counts_.size() - 1, core_.violated);
     if (solve({&at_most, 1}, kConflictsToExhaust) == SatSolver::Result::kUnsatisfiable) {
-      model_.solver().add({-at_most.literal});
+      const Literal violated = -at_most.literal;
+      log_core(model_.solver().log_sum({&violated, 1}));
+      model_.solver().add({violated});
       ++core_.violated;
       ++lower_bound_;
       return Outcome::kWorking;

@@ -37,7 +37,8 @@ class CoreSearch {
   // All arguments must outlive this object, except `stops`, which is copied. Uses at most about
   // `max_bytes`. Searches with different seeds find different cores; 0: agents in their order.
   CoreSearch(const Problem& problem, const AgentStopsCache& stops, Techniques techniques,
-             std::size_t max_bytes, const Limits& limits, std::uint64_t seed = 0);
+             std::size_t max_bytes, const Limits& limits, ProofLog* proof = nullptr,
+             std::uint64_t seed = 0);
 
   // Plans an agent, or calls the SAT solver for a limited number of conflicts. `cutoff`: plans of
   // this cost or more are of no interest; must not rise from call to call.
@@ -100,6 +101,7 @@ class CoreSearch {
   void finish_relaxation();
   Outcome prove_cutoff();
   void accept_core();
+  void log_core(std::int64_t sum) { model_.solver().log(FormulaKind::kCore, {sum}); }
   PathModel::Outcome raise(const Soft& soft);
 
   SatSolver::Result solve(std::span<const Soft> assumed, int max_conflicts);

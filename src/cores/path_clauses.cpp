@@ -39,7 +39,7 @@ PathClauses::PathClauses(SatSolver& solver, AgentIndex agent, const PathGraph& g
       corridors_(corridors),
       conflicts_(conflicts),
       is_node_presence_(graph.has_one_node_per_presence()),
-      active_(solver.new_variable()) {}
+      active_(solver.new_variable(FormulaKind::kActive, {agent})) {}
 
 void PathClauses::grow() {
   const bool is_complete = grow(graph_.count());
@@ -58,6 +58,7 @@ bool PathClauses::grow(PathGraph::Node max_nodes) {
 }
 
 void PathClauses::start_level() {
+  solver_.log(FormulaKind::kAgent, {agent_, levels_});
   nodes_.resize(graph_.count(), 0);
   has_all_successors_.resize(graph_.count(), 0);
   std::vector<Literal> clause{-within(levels_)};
@@ -84,7 +85,7 @@ void PathClauses::add_walk_clauses(PathGraph::Node node) {
 
 Literal PathClauses::within(Time excess) {
   while (std::ssize(within_) <= excess) {
-    within_.push_back(solver_.new_variable());
+    within_.push_back(solver_.new_variable(FormulaKind::kWithin, {agent_, std::ssize(within_)}));
     if (within_.size() > 1) solver_.add({-within_[within_.size() - 2], within_.back()});
   }
   return within_[excess];
@@ -99,16 +100,26 @@ Literal PathClauses::literal_of(PathGraph::Node node) {
   if (is_node_presence_) {
     known = literal_of(presence);
   } else {
-    known = solver_.new_variable();
+    known = new_node_variable(node);
     if (!is_last || arrival == graph_.time(node)) solver_.add({-known, literal_of(presence)});
   }
   solver_.add({-known, active_});
   return known;
 }
 
+Literal PathClauses::new_node_variable(PathGraph::Node node) {
+  const PathGraph::Position at = graph_.position(node);
+  return solver_.new_variable(
+      FormulaKind::kNode,
+      {agent_, graph_.time(node), graph_.place(node), at.pose,
+       static_cast<std::int64_t>(at.stops_done), at.stop, at.steps_done, graph_.arrival(node)});
+}
+
 Literal PathClauses::literal_of(const Presence& presence) {
   if (const Literal known = presences_.find(presence)) return known;
-  const Literal literal = solver_.new_variable();
+  const Literal literal =
+      solver_.new_variable(presence.is_last ? FormulaKind::kLast : FormulaKind::kVisit,
+                           {agent_, presence.place, presence.time});
   presences_.insert(presence, literal);
   conflicts_.add(agent_, presence, literal);
   for (TraversalClauses& traversals : traversals_) traversals.add(presence, literal, presences_);
@@ -125,7 +136,9 @@ Literal PathClauses::satisfies(const Constraint& constraint) {
   Constraints& on = constraints_on_[constraint.cell];
   for (const std::size_t known : on)
     if (constraints_[known].constraint == constraint) return constraints_[known].literal;
-  const Literal literal = solver_.new_variable();
+  const Literal literal = solver_.new_variable(
+      FormulaKind::kMeets, {agent_, constraint.cell, constraint.from, constraint.begin,
+                            constraint.end, static_cast<std::int64_t>(constraint.kind)});
   constraints_.push_back({constraint, literal});
   on.push_back(index);
   if (constraint.kind == ConstraintKind::kNoTraversal) {
@@ -162,7 +175,7 @@ void PathClauses::restrict_move(const ConstraintLiteral& by, const Presence& pre
 TraversalClauses& PathClauses::traversals(const Constraint& constraint) {
   for (TraversalClauses& known : traversals_)
     if (known.is_about(constraint)) return known;
-  TraversalClauses& made = traversals_.emplace_back(solver_, corridors_, constraint);
+  TraversalClauses& made = traversals_.emplace_back(solver_, agent_, corridors_, constraint);
   PresenceLiterals added;
   for (const auto& [presence, literal] : presences_.all()) {
     added.insert(presence, literal);

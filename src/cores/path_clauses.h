@@ -58,6 +58,7 @@ class PathClauses {
   Literal literal_of(PathGraph::Node node);
   Literal literal_of(const Presence& presence);
   void start_level();
+  Literal new_node_variable(PathGraph::Node node);
   void add_walk_clauses(PathGraph::Node node);
   void restrict_presence(const ConstraintLiteral& by, const Presence& presence);
   void restrict_move(const ConstraintLiteral& by, const Presence& presence);

@@ -90,7 +90,7 @@ void PathGraph::expand(Node node, StageId stage) {
   const Time then = from.time + 1;
   const bool on_the_way = from.arrival == kOnTheWay;
   bool all = true;
-  if (on_the_way) all = reach(from.state, stage, then, kOnTheWay);
+  if (on_the_way && !is_executing(from.state)) all = reach(from.state, stage, then, kOnTheWay);
   for (const State state : world_.moves(from.state)) {
     const bool enters = world_.place(state) != world_.place(from.state);
     if ((!on_the_way && enters) || is_foreign_work(state)) continue;
@@ -101,6 +101,11 @@ void PathGraph::expand(Node node, StageId stage) {
     all &= known;
   }
   nodes_[node].has_all_successors = all;
+}
+
+// True within a task execution, which has no breaks.
+bool PathGraph::is_executing(State state) const {
+  return world_.is_working(state) && !world_.work(state).completed;
 }
 
 // Another agent's task has the same effect as a wait, but no plan may contain it. (Where the agent
@@ -118,12 +123,13 @@ bool PathGraph::reach(State state, StageId stage, Time time, Time arrival) {
   // No unknown route is shorter, so later calls come to the same result.
   if (arrival != kOnTheWay && distance > goals_.stops().longest_finish(world_.place(state)))
     return true;
-  const auto [at, is_new] =
-      numbers_.try_emplace({state, stage_number(stage), time, arrival}, count());
+  const std::int32_t number = stage_number(stage);
+  const auto [at, is_new] = numbers_.try_emplace({state, number, time, arrival}, count());
   const Node node = at->second;
   if (is_new) {
     const bool is_final = arrival != kOnTheWay && goals_.is_rest(goals_.stage(stage), state);
-    nodes_.push_back({.state = state, .time = time, .arrival = arrival, .is_final = is_final});
+    nodes_.push_back(
+        {.state = state, .stage = number, .time = time, .arrival = arrival, .is_final = is_final});
     is_queued_.push_back(0);
   }
   if (is_queued_[node] == 0) {
@@ -140,12 +146,26 @@ std::int32_t PathGraph::stage_number(StageId stage) {
   std::int32_t& number = numbers_of_stages_[index];
   if (number < 0) {
     const SequenceStages::Stage& key = goals_.stage(stage);
-    number =
-        stage_numbers_
-            .try_emplace({key.left, key.rests}, static_cast<std::int32_t>(stage_numbers_.size()))
-            .first->second;
+    const auto [known, is_new] = stage_numbers_.try_emplace(
+        {key.left, key.rests}, static_cast<std::int32_t>(stage_numbers_.size()));
+    if (is_new) left_of_stages_.push_back(key.left);
+    number = known->second;
   }
   return number;
+}
+
+PathGraph::Position PathGraph::position(Node node) const {
+  const AgentStops& stops = goals_.stops();
+  const State state = nodes_[node].state;
+  const State base = world_.base(state);
+  Position position{base - world_.bases(world_.place(base), world_.kind(base)).first,
+                    stops.all() & ~left_of_stages_[nodes_[node].stage], -1, 0};
+  if (!world_.is_working(state)) return position;
+  const Work& work = world_.work(state);
+  const std::vector<TaskIndex>& own = stops.instance().agent(stops.agent()).stops;
+  position.stop = static_cast<int>(std::ranges::find(own, work.task) - own.begin());
+  position.steps_done = work.done;
+  return position;
 }
 
 void PathGraph::find_excesses() {

@@ -56,8 +56,16 @@ class PathGraph {
   bool is_final(Node node) const { return nodes_[node].is_final; }
   // True if no two nodes have the same place, time and arrival.
   bool has_one_node_per_presence() const {
-    return world_.states_are_places() && goals_.stops().count() == 0;
+    return world_.kind(goals_.stops().start()) == 0 && goals_.stops().count() == 0;
   }
+  // What distinguishes a node from the others with the same place, time and arrival.
+  struct Position {
+    std::int32_t pose;   // rank among the base states of the agent's kind on the place
+    StopSet stops_done;  // by index in Agent::stops
+    int stop;            // whose task is being executed or was just completed; -1: none
+    Time steps_done;     // of this execution
+  };
+  Position position(Node node) const;
   std::span<const Node> starts() const { return starts_; }
   std::span<const Node> successors(Node node) const {
     return {successors_.data() + nodes_[node].first, successors_.data() + nodes_[node].end};
@@ -88,6 +96,7 @@ class PathGraph {
   };
   struct Data {
     State state;
+    std::int32_t stage;  // as Key::stage
     Time time;
     Time arrival;
     Time excess = kNever;
@@ -101,6 +110,7 @@ class PathGraph {
   void expand(Node node, StageId stage);
   // Returns false if the node might be added by a later call of grow().
   bool reach(State state, StageId stage, Time time, Time arrival);
+  bool is_executing(State state) const;
   bool is_foreign_work(State state) const;
   std::int32_t stage_number(StageId stage);
   void find_excesses();
@@ -113,6 +123,7 @@ class PathGraph {
   std::vector<Node> successors_;
   std::unordered_map<Key, Node, KeyHash> numbers_;
   std::map<std::pair<StopSet, StopSet>, std::int32_t> stage_numbers_;  // by Stage::left and ::rests
+  std::vector<StopSet> left_of_stages_;                                // by stage number
   std::int64_t visited_ = 0;
   Time grown_ = -1;
   // Of the current growth.

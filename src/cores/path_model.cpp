@@ -42,7 +42,7 @@ constexpr int kNodesPerStep = 10'000;                    // of grow()
 }  // namespace
 
 PathModel::PathModel(const Problem& problem, const AgentStopsCache& stops, Techniques techniques,
-                     const Limits& limits)
+                     const Limits& limits, ProofLog* proof)
     : problem_(problem),
       techniques_(techniques),
       limits_(limits),
@@ -50,7 +50,7 @@ PathModel::PathModel(const Problem& problem, const AgentStopsCache& stops, Techn
       low_level_(problem.instance.world()),
       finder_(problem.instance.world(), problem.instance.may_follow()),
       first_paths_(problem.instance.world()),
-      solver_(limits),
+      solver_(limits, proof),
       paths_(static_cast<std::size_t>(problem.instance.agent_count())) {}
 
 PathModel::Outcome PathModel::plan_next_agent() {
@@ -76,17 +76,16 @@ PathModel::Outcome PathModel::plan_next_agent() {
 // Of the walks of least cost, one with the fewest conflicts with the first paths of the agents
 // before. The graph has grown once, so its nodes are numbered in order of time.
 std::vector<PathGraph::Node> PathModel::walk_with_fewest_conflicts(const PathGraph& graph) const {
-  using Node = PathGraph::Node;
-  constexpr Node kNone = -1;
+  constexpr PathGraph::Node kNone = -1;
   std::vector<int> conflicts(static_cast<std::size_t>(graph.count()));
-  std::vector<Node> next(conflicts.size(), kNone);
-  for (Node node = graph.count(); node-- > 0;) {
+  std::vector<PathGraph::Node> next(conflicts.size(), kNone);
+  for (PathGraph::Node node = graph.count(); node-- > 0;) {
     if (graph.excess(node) > 0) continue;
     if (graph.is_final(node)) {
       conflicts[node] = first_paths_.conflicts_of_resting(graph.place(node), graph.arrival(node));
       continue;
     }
-    for (const Node to : graph.successors(node)) {
+    for (const PathGraph::Node to : graph.successors(node)) {
       if (graph.excess(to) > 0) continue;
       const int then = conflicts[to] +
                        first_paths_.conflicts(graph.place(node), graph.place(to), graph.time(to));
@@ -96,11 +95,11 @@ std::vector<PathGraph::Node> PathModel::walk_with_fewest_conflicts(const PathGra
       }
     }
   }
-  Node node = kNone;
-  for (const Node start : graph.starts())
+  PathGraph::Node node = kNone;
+  for (const PathGraph::Node start : graph.starts())
     if (graph.excess(start) == 0 && (node == kNone || conflicts[start] < conflicts[node]))
       node = start;
-  std::vector<Node> walk;
+  std::vector<PathGraph::Node> walk;
   for (; node != kNone; node = next[node]) walk.push_back(node);
   return walk;
 }
@@ -161,10 +160,18 @@ SatSolver::Result PathModel::solve(std::vector<Literal> assumptions,
                                    std::span<const AgentIndex> needed, int max_conflicts) {
   std::vector<std::uint8_t> is_needed(agents_.size(), 0);
   for (const AgentIndex agent : needed) is_needed[agent] = 1;
+  const auto count = std::ssize(assumptions);
   for (std::size_t agent = 0; agent < agents_.size(); ++agent)
     if (agents_[agent].clauses && is_needed[agent] == 0 && !agents_[agent].is_limited)
       assumptions.push_back(-agents_[agent].clauses->active());
-  return solver_.solve(assumptions, max_conflicts);
+  const SatSolver::Result result = solver_.solve(assumptions, max_conflicts);
+  if (result != SatSolver::Result::kUnsatisfiable || !solver_.has_proof()) return result;
+  // The core must follow by unit propagation without these assumptions.
+  const auto others = std::span(assumptions).subspan(static_cast<std::size_t>(count));
+  if (std::ranges::none_of(others, [&](Literal literal) { return solver_.failed(literal); }))
+    return result;
+  return solver_.solve(std::span(assumptions).first(static_cast<std::size_t>(count)),
+                       max_conflicts);
 }
 
 void PathModel::read_walks() {
@@ -199,13 +206,16 @@ std::int64_t PathModel::add_conflicts() {
 
 void PathModel::add_split(const Conflict& conflict, const Split& split) {
   std::vector<Literal> clause;
+  std::vector<std::int64_t> sides;
   for (const AgentConstraint& side : split) {
     const Literal literal = clauses_of(side.agent).satisfies(side.constraint);
     clause.push_back(literal);
+    sides.push_back(literal);
     if (!constrains_all_agents(side.constraint)) continue;
     const AgentIndex other = side.agent == conflict.first ? conflict.second : conflict.first;
     solver_.add({-literal, clauses_of(other).satisfies(*constraint_on(other, side))});
   }
+  solver_.log(FormulaKind::kSplit, sides);
   solver_.add(clause);
 }
 
@@ -232,7 +242,6 @@ Path PathModel::path_of(const Agent& agent) const {
   return path;
 }
 
-// A walk may wait within a task execution; in the plan, the wait follows the execution.
 Plan PathModel::plan() const {
   GROVE_CHECK(is_complete() && has_all_paths(), "a plan has a path for each agent");
   Plan plan;

@@ -40,7 +40,7 @@ class PathModel {
 
   // All arguments must outlive this object, except `stops`, which is copied.
   PathModel(const Problem& problem, const AgentStopsCache& stops, Techniques techniques,
-            const Limits& limits);
+            const Limits& limits, ProofLog* proof = nullptr);
 
   // Plans the next agent. Must be called until is_complete(), before all functions that follow.
   Outcome plan_next_agent();

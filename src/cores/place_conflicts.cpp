@@ -26,7 +26,8 @@ void PlaceConflicts::add_visit(AgentIndex agent, const Presence& presence, Liter
   }
   OnPlace& place = places_[presence.place];
   for (Resting& resting : place.resting)
-    if (resting.agent != agent) solver_.add({-rests_by(resting, presence.time), -literal});
+    if (resting.agent != agent)
+      solver_.add({-rests_by(resting, presence.place, presence.time), -literal});
   place.visits.push_back({agent, presence.time, literal});
 }
 
@@ -36,19 +37,20 @@ void PlaceConflicts::add_rest(AgentIndex agent, const Presence& presence, Litera
   if (known == place.resting.end()) {
     place.resting.push_back({agent, {}});
     known = std::prev(place.resting.end());
-    const Literal ever = rests_by(*known, kNever);
+    const Literal ever = rests_by(*known, presence.place, kNever);
     for (Resting& other : place.resting)
-      if (other.agent != agent) solver_.add({-ever, -rests_by(other, kNever)});
+      if (other.agent != agent) solver_.add({-ever, -rests_by(other, presence.place, kNever)});
     for (const Visit& visit : place.visits)
-      if (visit.agent != agent) solver_.add({-rests_by(*known, visit.time), -visit.literal});
+      if (visit.agent != agent)
+        solver_.add({-rests_by(*known, presence.place, visit.time), -visit.literal});
   }
-  solver_.add({-literal, rests_by(*known, presence.time)});
+  solver_.add({-literal, rests_by(*known, presence.place, presence.time)});
 }
 
-Literal PlaceConflicts::rests_by(Resting& resting, Time time) {
+Literal PlaceConflicts::rests_by(Resting& resting, Place place, Time time) {
   const auto [at, is_new] = resting.by.try_emplace(time, 0);
   if (is_new) {
-    at->second = solver_.new_variable();
+    at->second = solver_.new_variable(FormulaKind::kRests, {resting.agent, place, time});
     if (at != resting.by.begin()) solver_.add({-std::prev(at)->second, at->second});
     if (const auto later = std::next(at); later != resting.by.end())
       solver_.add({-at->second, later->second});

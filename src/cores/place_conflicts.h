@@ -47,7 +47,7 @@ class PlaceConflicts {
 
   void add_visit(AgentIndex agent, const Presence& presence, Literal literal);
   void add_rest(AgentIndex agent, const Presence& presence, Literal literal);
-  Literal rests_by(Resting& resting, Time time);
+  Literal rests_by(Resting& resting, Place place, Time time);
 
   SatSolver& solver_;
   std::unordered_map<std::uint64_t, Visitors> visitors_;  // by place and time

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "model/limits.h"
+#include "search/proof_log.h"
 
 namespace grove::detail {
 
@@ -20,11 +21,14 @@ class SatSolver {
  public:
   enum class Result : std::uint8_t { kSatisfiable, kUnsatisfiable, kUnknown };
 
-  // `limits` must outlive this object; when they are reached, solve() returns kUnknown.
-  explicit SatSolver(const Limits& limits);
+  // `limits` and `proof` must outlive this object. When the limits are reached, solve() returns
+  // kUnknown. If `proof` is not nullptr, logs the variables, the clauses that the solver derives,
+  // and those that it deletes.
+  explicit SatSolver(const Limits& limits, ProofLog* proof = nullptr);
   ~SatSolver();
 
-  Literal new_variable();
+  // `kind` and `meaning` define the variable in a proof (FormulaKind).
+  Literal new_variable(FormulaKind kind, std::initializer_list<std::int64_t> meaning);
   void add(std::span<const Literal> clause);
   void add(std::initializer_list<Literal> clause) { add({clause.begin(), clause.size()}); }
 
@@ -38,6 +42,15 @@ class SatSolver {
   // Decisions on the variable of `literal` try this value first.
   void prefer(Literal literal);
 
+  // Logs a line of the proof after all clauses derived so far. Does nothing without a proof.
+  void log(FormulaKind kind, std::span<const std::int64_t> numbers);
+  void log(FormulaKind kind, std::initializer_list<std::int64_t> numbers) {
+    log(kind, {numbers.begin(), numbers.size()});
+  }
+  // Logs the sum of `inputs` and returns its number.
+  std::int64_t log_sum(std::span<const Literal> inputs);
+  bool has_proof() const { return proof_ != nullptr; }
+
   std::int64_t variables() const { return variables_; }
   std::int64_t conflicts() const;
   // Effort so far in the unit of model/effort.h.
@@ -47,7 +60,9 @@ class SatSolver {
 
  private:
   class Solver;
+  ProofLog* const proof_;
   std::unique_ptr<Solver> solver_;
+  std::int64_t sums_ = 0;
   std::int64_t variables_ = 0;
   std::int64_t literals_ = 0;  // in added clauses
   std::int64_t solves_work_ = 0;

@@ -10,19 +10,22 @@
 
 namespace grove::detail {
 
-Totalizer::Totalizer(SatSolver& solver, std::span<const Literal> inputs) : solver_(solver) {
+Totalizer::Totalizer(SatSolver& solver, std::span<const Literal> inputs)
+    : solver_(solver), number_(solver.log_sum(inputs)) {
   GROVE_CHECK(inputs.size() >= 2, "a totalizer counts two literals or more");
-  make(inputs);
+  make(inputs, 0);
 }
 
-std::size_t Totalizer::make(std::span<const Literal> inputs) {
+std::size_t Totalizer::make(std::span<const Literal> inputs, std::size_t first) {
   Node node;
+  node.first = first;
   node.inputs = inputs.size();
   if (inputs.size() == 1) {
     node.outputs = {inputs.front()};
   } else {
-    node.left = make(inputs.first(inputs.size() / 2));
-    node.right = make(inputs.subspan(inputs.size() / 2));
+    const std::size_t half = inputs.size() / 2;
+    node.left = make(inputs.first(half), first);
+    node.right = make(inputs.subspan(half), first + half);
   }
   nodes_.push_back(std::move(node));
   return nodes_.size() - 1;
@@ -37,8 +40,11 @@ Literal Totalizer::output(std::size_t node, std::size_t count) {
 // Adds the next output of a node.
 void Totalizer::extend(std::size_t node) {
   const std::size_t count = nodes_[node].outputs.size() + 1;
-  const Literal next = solver_.new_variable();
-  const auto [left, right, inputs, outputs] = nodes_[node];
+  const auto [left, right, first, inputs, outputs] = nodes_[node];
+  const Literal next =
+      solver_.new_variable(FormulaKind::kCount, {number_, static_cast<std::int64_t>(first),
+                                                 static_cast<std::int64_t>(first + inputs),
+                                                 static_cast<std::int64_t>(count)});
   for (std::size_t i = 0; i <= std::min(count, nodes_[left].inputs); ++i) {
     const std::size_t j = count - i;
     if (j > nodes_[right].inputs) continue;

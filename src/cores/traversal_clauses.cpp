@@ -10,9 +10,10 @@
 
 namespace grove::detail {
 
-TraversalClauses::TraversalClauses(SatSolver& solver, const Corridors& corridors,
+TraversalClauses::TraversalClauses(SatSolver& solver, AgentIndex agent, const Corridors& corridors,
                                    const Constraint& c)
     : solver_(&solver),
+      agent_(agent),
       corridors_(&corridors),
       corridor_(corridors.corridor_of(c.from)),
       last_inner_(c.from),
@@ -29,7 +30,7 @@ void TraversalClauses::add(const Presence& presence, Literal literal,
                            const PresenceLiterals& presences) {
   const auto [place, time, is_last] = presence;
   if (!is_inner(place) && place != entry_ && place != exit_) return;
-  if (is_inner(place)) solver_->add({-inside(time - 1), -literal, inside(time)});
+  if (is_inner(place) && time > 0) solver_->add({-inside(time - 1), -literal, inside(time)});
   const auto with_before = [&](Place before) {
     if (const Literal from = presences.find({before, time - 1, false}))
       link(before, place, from, literal, time);
@@ -60,14 +61,15 @@ void TraversalClauses::forbid(Time begin, Time end, Literal unless) {
 
 Literal TraversalClauses::inside(Time time) {
   Literal& literal = inside_[time];
-  if (literal == 0) literal = solver_->new_variable();
+  if (literal == 0)
+    literal = solver_->new_variable(FormulaKind::kInside, {agent_, last_inner_, exit_, time});
   return literal;
 }
 
 Literal TraversalClauses::ends(Time arrival) {
   Literal& literal = ends_[arrival];
   if (literal == 0) {
-    literal = solver_->new_variable();
+    literal = solver_->new_variable(FormulaKind::kEnds, {agent_, last_inner_, exit_, arrival});
     for (const Ban& ban : bans_)
       if (ban.begin <= arrival && arrival <= ban.end) solver_->add({-ban.unless, -literal});
   }

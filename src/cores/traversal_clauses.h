@@ -19,7 +19,8 @@ namespace grove::detail {
 class TraversalClauses {
  public:
   // `c`: a constraint of kind kNoTraversal. All arguments but `c` must outlive this object.
-  TraversalClauses(SatSolver& solver, const Corridors& corridors, const Constraint& c);
+  TraversalClauses(SatSolver& solver, AgentIndex agent, const Corridors& corridors,
+                   const Constraint& c);
 
   bool is_about(const Constraint& c) const { return c.cell == exit_ && c.from == last_inner_; }
   // Adds the clauses of one more presence. `presences` holds it and the presences added before.
@@ -41,6 +42,7 @@ class TraversalClauses {
   Literal ends(Time arrival);
 
   SatSolver* solver_;
+  AgentIndex agent_;
   const Corridors* corridors_;
   int corridor_;
   Place entry_;        // the end at which a traversal enters

@@ -31,45 +31,16 @@
 #include "model/omega.h"
 #include "planning/constraint.h"
 #include "proof/certificate_file.h"
+#include "proof/formula_writer.h"
 #include "proof/proof_forest.h"
 #include "proof/proof_parts.h"
 #include "proof/proof_records.h"
+#include "proof/proof_text.h"
 #include "proof/split_tree.h"
 #include "search/proof_log.h"
 
 namespace grove::detail {
 namespace {
-
-std::string until(Time end) {
-  return end >= kNever ? "inf" : fmt::to_string(end);
-}
-
-// Returns a constraint as text, for example "3 bar 17 4 4".
-std::string proof_text(const AgentConstraint& constraint, const Instance& instance) {
-  const Constraint& c = constraint.constraint;
-  const auto text = [&](std::string_view what, auto... values) {
-    std::string line = fmt::format("{} {}", constraint.agent, what);
-    ((line += fmt::format(" {}", values)), ...);
-    return line;
-  };
-  const auto task = [&] { return instance.agent(constraint.agent).stops[c.from]; };
-  switch (c.kind) {
-    case ConstraintKind::kVertexOrEdge:
-      if (c.is_move()) return text("move", c.from, c.cell, std::max(c.begin, 0), until(c.end));
-      return text("bar", c.cell, std::max(c.begin, 0), until(c.end));
-    case ConstraintKind::kNoRestBy:
-      return text("norest", c.cell, c.end);
-    case ConstraintKind::kRestBy:
-      return text("rest", c.cell, c.end);
-    case ConstraintKind::kNoTraversal:
-      return text("pass", c.from, c.cell, c.begin, until(c.end));
-    case ConstraintKind::kStopIs:
-      return text("stop", c.begin, task());
-    case ConstraintKind::kStopIsNot:
-      return text("nostop", c.begin, task());
-  }
-  return {};
-}
 
 // Returns the line of a split, for example "split 3 bar 17 4 4 | 5 bar 17 4 4".
 std::string proof_text(const Split& split, const Instance& instance) {
@@ -150,6 +121,8 @@ class LemmaWriter : public ProofLog {
              std::span<const ProofExcess> /*excesses*/) override {}
   void prices(Cost /*bound*/, std::span<const RowMultiplier> /*rows*/) override {}
   void joint(Cost /*bound*/) override {}
+  void formula(FormulaKind /*kind*/, std::span<const std::int64_t> /*numbers*/) override {}
+  void formula_bound(Cost /*bound*/) override {}
 
   std::int64_t number(ProofKey key) const {
     GROVE_CHECK(numbers_.contains(key), "a lemma is written before it is named");
@@ -202,14 +175,19 @@ class CertificateBuilder {
  public:
   CertificateBuilder(const Instance& instance, std::span<const std::filesystem::path> parts)
       : instance_(instance), parts_(parts), forest_(written_) {
-    for (const auto& part : parts_) read_proof_part(part, written_);
+    for (const auto& part : parts_) {
+      const Cost before = written_.of_formula;
+      read_proof_part(part, written_);
+      if (written_.of_formula > before) formula_part_ = part;
+    }
     written_.drop_records_without_lemmas();
   }
 
   Certificate write(Cost claimed, const std::filesystem::path& file) {
     const Cost of_trees = forest_.value(claimed);
     made_.bound =
-        std::min(claimed, std::max({of_trees, written_.pricing_bound, written_.joint_bound}));
+        std::min(claimed, std::max({of_trees, written_.pricing_bound, written_.joint_bound,
+                                                written_.of_formula}));
     const bool by_trees = of_trees >= made_.bound && !is_evidently_infeasible(claimed);
     LemmaCollector choosing(made_.bound);
     if (by_trees) forest_.visit(made_.bound, choosing);
@@ -227,6 +205,8 @@ class CertificateBuilder {
       forest_.visit(made_.bound, writing);
     else if (written_.pricing_bound >= made_.bound)
       write_prices(output);
+    else if (written_.of_formula >= made_.bound)
+      write_formula(instance_, formula_part_, made_.bound, output);
     else
       write_joint(output);
     GROVE_CHECK(!by_trees || made_.leaves == made_.splits + 1,
@@ -258,6 +238,7 @@ class CertificateBuilder {
   const Instance& instance_;
   const std::span<const std::filesystem::path> parts_;
   ProofRecords written_;
+  std::filesystem::path formula_part_;  // the log with the formula of the greatest bound
   ProofForest forest_;
   Certificate made_;
 };

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "model/parse_number.h"
 #include "proof/certificate.h"
 #include "proof/line_stream.h"
+#include "search/proof_log.h"
 
 namespace grove::detail {
 namespace {
@@ -255,7 +258,7 @@ class Reader {
 
   // Takes one step of a proof. Returns the change in the number of open subproofs.
   int step() {
-    switch (one_of({"leaf", "split", "later", "joint", "prices"})) {
+    switch (one_of({"leaf", "split", "later", "joint", "prices", "formula"})) {
       case 0:
         named_.clear();
         while (words_) named_.push_back(lemma());
@@ -271,10 +274,14 @@ class Reader {
         end_line();
         visitor_.joint();
         return -1;
-      default:
+      case 4:
         end_line();
         visitor_.prices();
         take_rows();
+        return -1;
+      default:
+        end_line();
+        take_formula();
         return -1;
     }
   }
@@ -320,6 +327,135 @@ class Reader {
     }
   }
 
+  // Takes a formula after its first line.
+  void take_formula() {
+    visitor_.formula();
+    variables_ = sums_ = clauses_ = 0;
+    for (;;) {
+      take_line();
+      if (take_definition()) continue;
+      break;
+    }
+    while (take_formula_step()) take_line();
+    visitor_.formula_end();
+  }
+
+  // Takes a definition. Returns false, and takes nothing, if the line is something else.
+  bool take_definition() {
+    using enum FormulaKind;
+    static constexpr std::array kNames = {std::pair{"agent", kAgent},   std::pair{"within", kWithin},
+                                          std::pair{"active", kActive}, std::pair{"visit", kVisit},
+                                          std::pair{"last", kLast},     std::pair{"rests", kRests},
+                                          std::pair{"node", kNode},     std::pair{"meets", kMeets},
+                                          std::pair{"inside", kInside}, std::pair{"ends", kEnds},
+                                          std::pair{"count", kCount},   std::pair{"sum", kSum},
+                                          std::pair{"split", kSplit}};
+    const std::string_view word = words_->substr(0, words_->find(' '));
+    const auto* const found =
+        std::ranges::find(kNames, word, [](const auto& name) { return std::string_view(name.first); });
+    if (found == kNames.end()) return false;
+    next_word();
+    take_meaning(found->second);
+    end_line();
+    if (found->second >= kWithin && found->second <= kCount) ++variables_;
+    if (found->second == kSum) ++sums_;
+    visitor_.formula_line();
+    return true;
+  }
+
+  void take_meaning(FormulaKind kind) {
+    switch (kind) {
+      case FormulaKind::kActive:
+        agent();
+        return;
+      case FormulaKind::kVisit:
+      case FormulaKind::kLast:
+        agent();
+        place();
+        time();
+        return;
+      case FormulaKind::kRests:
+        agent();
+        place();
+        if (!take_inf()) time();
+        return;
+      case FormulaKind::kNode:
+        return take_node();
+      case FormulaKind::kMeets:
+        constraint();
+        return;
+      case FormulaKind::kInside:
+      case FormulaKind::kEnds:
+        agent();
+        place();
+        place();
+        time();
+        return;
+      case FormulaKind::kCount:
+        number("the number of an earlier sum", sums_);
+        for (int left = 3; left > 0; --left) number("a number of inputs", kTimes);
+        return;
+      case FormulaKind::kSum:
+        do literal();
+        while (words_);
+        return;
+      case FormulaKind::kSplit:
+        literal();
+        literal();
+        return;
+      default:
+        agent();
+        number("an excess", kTimes);
+    }
+  }
+
+  void take_node() {
+    agent();
+    time();
+    place();
+    number("the number of a pose", kTimes);
+    number("a set of stops", std::numeric_limits<std::uint64_t>::max());
+    if (words_ && words_->starts_with("work ")) {
+      keyword("work");
+      task();
+      number("a number of steps", kTimes);
+    }
+    if (!words_) return;
+    keyword("since");
+    time();
+  }
+
+  // Takes a variable of the formula, or its negation.
+  void literal() {
+    if (words_ && words_->starts_with('-')) words_ = words_->substr(1);
+    const auto found = next_word();
+    const auto value = found ? parse_number<std::uint64_t>(*found) : std::nullopt;
+    if (!value || *value < 1 || *value > variables_)
+      fail_at(found, "the number of an earlier variable, or its negation");
+  }
+
+  // Takes a step of a formula. Returns false if it is its end.
+  bool take_formula_step() {
+    switch (one_of({"clause", "drop", "core", "end"})) {
+      case 0:
+        while (words_) literal();
+        ++clauses_;
+        break;
+      case 1:
+        number("the number of an earlier clause", clauses_);
+        break;
+      case 2:
+        number("the number of a sum", sums_);
+        break;
+      default:
+        end_line();
+        return false;
+    }
+    end_line();
+    visitor_.formula_line();
+    return true;
+  }
+
   const std::string file_;
   LineStream lines_;
   const Instance* const instance_;
@@ -328,7 +464,10 @@ class Reader {
   std::optional<std::string_view> words_;        // remainder of the line; nullopt: no word left
   std::vector<LemmaNumber> named_;
   std::int64_t line_ = 0;
-  std::uint64_t lemmas_ = 0;  // lemmas read so far
+  std::uint64_t lemmas_ = 0;     // lemmas read so far
+  std::uint64_t variables_ = 0;  // of the current formula, as the next two
+  std::uint64_t sums_ = 0;
+  std::uint64_t clauses_ = 0;
 };
 
 }  // namespace

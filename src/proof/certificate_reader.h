@@ -61,6 +61,9 @@ class CertificateVisitor {
   virtual void prices() {}
   virtual void row(std::int64_t /*charge*/) {}
   virtual void rows_end() {}
+  virtual void formula() {}
+  virtual void formula_line() {}
+  virtual void formula_end() {}
   virtual void proven() {}
   virtual void end() {}
 };

@@ -10,7 +10,7 @@
 //   constraints.
 // - *Splits with an unused side.* If the proof below one side does not need the constraints of this
 //   side, it also proves the node. A leaf that uses the costs of agents can need all active
-//   constraints, and so can `joint` and `prices`. A leaf that lemmas prove for any costs of agents
+//   constraints, and so can `joint`, `prices` and `formula`. A leaf that lemmas prove for any costs of agents
 //   (lemma_table.cpp) needs only the constraints of these lemmas, and "later" only those of its
 //   lemma. So a proof with only such leaves needs the union of these constraints, without those
 //   that its own splits add. A side is unused if all needed constraints are active without it.
@@ -159,6 +159,7 @@ class DecidingPass : public KeptParts {
   }
   void kept_joint() override { needs_.reset(); }
   void kept_prices() override { needs_.reset(); }
+  void kept_formula() override { needs_.reset(); }
 
   LemmaTable& lemmas_;
   TableLemma statement_;
@@ -308,6 +309,9 @@ class WritingPass : public LaterPass {
     if (charge > 0) put(text_);
   }
   void kept_rows_end() override { put(text_); }
+  void kept_formula() override { put(text_); }
+  void kept_formula_line() override { put(text_); }
+  void kept_formula_end() override { put(text_); }
 
   void put(std::string_view line) {
     if (!is_needed_) return;

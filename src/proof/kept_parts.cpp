@@ -37,6 +37,19 @@ void KeptParts::rows_end() {
   close();
 }
 
+void KeptParts::formula() {
+  if (!is_skipping()) kept_formula();
+}
+
+void KeptParts::formula_line() {
+  if (!is_skipping()) kept_formula_line();
+}
+
+void KeptParts::formula_end() {
+  if (!is_skipping()) kept_formula_end();
+  close();
+}
+
 void KeptParts::open(const Fork& fork) {
   const std::size_t number = splits_++;
   if (is_skipping()) {

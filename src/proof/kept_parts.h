@@ -32,6 +32,9 @@ class KeptParts : public CertificateVisitor {
   void prices() final;
   void row(std::int64_t charge) final;
   void rows_end() final;
+  void formula() final;
+  void formula_line() final;
+  void formula_end() final;
 
  protected:
   // Called at each split that is not skipped. `number`: index of the split among all splits of the
@@ -47,6 +50,9 @@ class KeptParts : public CertificateVisitor {
   virtual void kept_prices() {}
   virtual void kept_row(std::int64_t /*charge*/) {}
   virtual void kept_rows_end() {}
+  virtual void kept_formula() {}
+  virtual void kept_formula_line() {}
+  virtual void kept_formula_end() {}
 
  private:
   struct Level {

@@ -26,7 +26,9 @@ enum PartKind : std::int64_t {
   kLemma = 3,
   kPrices = 4,
   kJoint = 5,
-  kTree = 6
+  kTree = 6,
+  kFormula = 7,
+  kFormulaBound = 8
 };
 constexpr std::int64_t kMaxNumbers = std::int64_t{1} << 28;  // maximum n of an entry
 
@@ -105,6 +107,12 @@ class NumberReader {
     }
     return tree;
   }
+  FormulaKind formula_kind() {
+    const std::int64_t kind = number();
+    if (kind < 0 || kind > static_cast<std::int64_t>(kLastFormulaKind)) refuse();
+    return static_cast<FormulaKind>(kind);
+  }
+  std::span<const std::int64_t> rest() const { return std::span(numbers_).subspan(at_); }
   RowMultiplier row() {
     RelaxedRow row;
     const std::int64_t kind = number();
@@ -141,6 +149,11 @@ void replay(std::int64_t kind, NumberReader taking, ProofLog& log) {
   }
   if (kind == kJoint) return log.joint(taking.number());
   if (kind == kTree) return log.tree(taking.tree());
+  if (kind == kFormulaBound) return log.formula_bound(taking.number());
+  if (kind == kFormula) {
+    const FormulaKind of_line = taking.formula_kind();
+    return log.formula(of_line, taking.rest());
+  }
   if (kind == kPrices) {
     const Cost bound = taking.number();
     std::vector<RowMultiplier> rows;
@@ -268,6 +281,16 @@ void ProofRecorder::joint(Cost bound) {
   stream_->add(kJoint, {bound});
 }
 
+void ProofRecorder::formula(FormulaKind kind, std::span<const std::int64_t> numbers) {
+  Numbers entry{static_cast<std::int64_t>(kind)};
+  entry.insert(entry.end(), numbers.begin(), numbers.end());
+  stream_->add(kFormula, entry);
+}
+
+void ProofRecorder::formula_bound(Cost bound) {
+  stream_->add(kFormulaBound, {bound});
+}
+
 std::string ProofRecorder::flush() {
   return stream_->flush();
 }
@@ -286,7 +309,7 @@ void read_proof_part(const std::filesystem::path& path, ProofLog& log) {
   };
   Numbers numbers;
   for (std::int64_t head[2]; read(head, 2);) {
-    if (head[0] < kSplit || head[0] > kTree || head[1] < 0 || head[1] > kMaxNumbers)
+    if (head[0] < kSplit || head[0] > kFormulaBound || head[1] < 0 || head[1] > kMaxNumbers)
       refuse_part(path);
     numbers.resize(static_cast<std::size_t>(head[1]));
     if (!read(numbers.data(), numbers.size())) break;

@@ -28,6 +28,8 @@ class ProofRecorder : public ProofLog {
   void lemma(const ProofLemma& lemma, ProofKey root, std::span<const ProofSplit> splits) override;
   void prices(Cost bound, std::span<const RowMultiplier> rows) override;
   void joint(Cost bound) override;
+  void formula(FormulaKind kind, std::span<const std::int64_t> numbers) override;
+  void formula_bound(Cost bound) override;
 
   // Writes all entries so far to the file. Returns the error message of the first failed write; ""
   // if none failed.

@@ -40,6 +40,12 @@ void ProofRecords::joint(Cost bound) {
   joint_bound = std::max(joint_bound, bound);
 }
 
+void ProofRecords::formula(FormulaKind /*kind*/, std::span<const std::int64_t> /*numbers*/) {}
+
+void ProofRecords::formula_bound(Cost bound) {
+  of_formula = std::max(of_formula, bound);
+}
+
 void ProofRecords::drop_records_without_lemmas() {
   const auto is_lost = [&](ProofKey lemma) { return !lemmas.contains(lemma); };
   for (auto& [node, entry] : entries) {

@@ -34,7 +34,8 @@ class ProofRecords : public ProofLog {
   std::vector<ProofTree> trees;
   Cost pricing_bound = 0;  // bound proven by `prices`
   std::vector<RowMultiplier> priced_rows;
-  Cost joint_bound = 0;  // bound proven by joint search
+  Cost joint_bound = 0;    // bound proven by joint search
+  Cost of_formula = 0;  // bound proven by a formula
 
   void tree(const ProofTree& tree) override;
   void split(const ProofSplit& split) override;
@@ -42,6 +43,8 @@ class ProofRecords : public ProofLog {
   void lemma(const ProofLemma& lemma, ProofKey root, std::span<const ProofSplit> splits) override;
   void prices(Cost bound, std::span<const RowMultiplier> rows) override;
   void joint(Cost bound) override;
+  void formula(FormulaKind kind, std::span<const std::int64_t> numbers) override;
+  void formula_bound(Cost bound) override;
 
   // Removes splits and excesses that name missing lemmas, and lowers the bounds of the nodes
   // accordingly. A lemma is missing if the log of its process is incomplete or was removed.

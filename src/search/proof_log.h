@@ -69,6 +69,34 @@ struct ProofExcess {
   Cost excess = 0;  // lower bound on the excess of these agents
 };
 
+// A line of the formula of a core search (docs/proof.md, "formula").
+enum class FormulaKind : std::uint8_t {
+  kBegin,  // a formula begins; forgets the lines so far. No numbers
+  // Definitions. Those from kWithin to kCount define the variables 1, 2, ...
+  kAgent,   // agent, greatest excess of its paths
+  kWithin,  // agent, excess
+  kActive,  // agent
+  kVisit,   // agent, place, time
+  kLast,    // agent, place, time
+  kRests,   // agent, place, time (kNever: ever)
+  kNode,    // agent, time, place, rank of the pose, stops done, stop executed or -1, its steps done,
+            // time of the last arrival or -1
+  kMeets,   // agent and constraint: cell, from, begin, end, kind
+  kInside,  // agent, last inner place, exit, time
+  kEnds,    // as kInside
+  kCount,   // sum, first input, end of the inputs, least number of true inputs
+  kSum,     // inputs; defines the sums 0, 1, ...
+  kSplit,   // two variables
+  // Steps.
+  kClause,  // literals
+  kDrop,    // number of a clause, from 0
+  kCore,    // sum
+};
+inline constexpr auto kLastFormulaKind = FormulaKind::kCore;
+inline bool is_step(FormulaKind kind) {
+  return kind >= FormulaKind::kClause;
+}
+
 // Receives the statements. A statement can turn out to be unnecessary, and can be logged
 // repeatedly. Thread-safe.
 class ProofLog {
@@ -97,6 +125,10 @@ class ProofLog {
   virtual void prices(Cost bound, std::span<const RowMultiplier> rows) = 0;
   // Logs that joint search of all agents proves that no plan costs less than `bound`.
   virtual void joint(Cost bound) = 0;
+  // Logs a line of the formula of the core search.
+  virtual void formula(FormulaKind kind, std::span<const std::int64_t> numbers) = 0;
+  // Logs that the lines of the formula so far prove that no plan costs less than `bound`.
+  virtual void formula_bound(Cost bound) = 0;
 };
 
 // The lemma that the agents `group` have an excess of at least `excess` at the node that `view` has

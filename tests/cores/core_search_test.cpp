@@ -26,7 +26,7 @@ class Search {
   Search(const Instance& instance, Techniques techniques, std::uint64_t seed = 0)
       : problem_(instance, limits_),
         stops_(instance, problem_.distances),
-        search_(problem_, stops_, techniques, kMaxBytes, limits_, seed) {}
+        search_(problem_, stops_, techniques, kMaxBytes, limits_, nullptr, seed) {}
 
   // Runs for at most `steps` steps. `check` is called after each.
   template <class Check>

@@ -30,7 +30,7 @@ class Mutation {
  private:
   void change() {
     const int at = random_.below(static_cast<int>(lines_.size()));
-    switch (random_.below(8)) {
+    switch (random_.below(10)) {
       case 0:
       case 1:
       case 2:
@@ -46,6 +46,10 @@ class Mutation {
         return;
       case 6:
         return cut_off(at);
+      case 7:
+        return flip_sign(lines_[at]);
+      case 8:
+        return insert_clause(at);
       default:
         return change_word(lines_[at]);
     }
@@ -65,11 +69,41 @@ class Mutation {
     line.replace(begin, end - begin, fmt::to_string(std::max<std::int64_t>(0, number)));
   }
 
+  // Negates a literal of a formula.
+  void flip_sign(std::string& line) {
+    if (!line.starts_with("clause ") && !line.starts_with("sum ") && !line.starts_with("split "))
+      return;
+    std::vector<std::size_t> blanks;
+    for (std::size_t i = 0; i < line.size(); ++i)
+      if (line[i] == ' ') blanks.push_back(i + 1);
+    const std::size_t at = random_.pick(blanks);
+    if (at < line.size() && line[at] == '-')
+      line.erase(at, 1);
+    else
+      line.insert(at, "-");
+  }
+
+  // Inserts a clause of one or two literals among the clauses of a formula.
+  void insert_clause(int at) {
+    if (!lines_[at].starts_with("clause") && !lines_[at].starts_with("core")) return;
+    std::string line = "clause";
+    for (int left = random_.between(1, 2); left > 0; --left)
+      line += fmt::format(" {}{}", random_.percent(50) ? "-" : "", random_.between(1, 200));
+    lines_.insert(lines_.begin() + at, line);
+  }
+
   void change_word(std::string& line) {
-    constexpr std::array<std::string_view, 8> kWords{"bar",  "move", "norest", "rest",
-                                                     "pass", "stop", "nostop", "inf"};
-    const std::string_view to = kWords[random_.below(kWords.size())];
-    for (const std::string_view word : kWords)
+    if (random_.percent(50))
+      return change_word(line, std::array<std::string_view, 6>{"visit", "last", "rests", "within",
+                                                               "inside", "ends"});
+    change_word(line, std::array<std::string_view, 8>{"bar", "move", "norest", "rest", "pass",
+                                                      "stop", "nostop", "inf"});
+  }
+
+  template <std::size_t N>
+  void change_word(std::string& line, const std::array<std::string_view, N>& words) {
+    const std::string_view to = words[random_.below(N)];
+    for (const std::string_view word : words)
       if (const std::size_t at = line.find(word); at != std::string::npos) {
         line.replace(at, word.size(), to);
         return;

@@ -132,11 +132,13 @@ TEST_F(CertificateTexts, FollowTheGrammarExactly) {
   EXPECT_EQ(refusal_of_proof("leaf \n"),
             "line 5: found ''; expected the number of an earlier lemma, of which there is none");
   EXPECT_EQ(refusal_of_proof("leaf\r\n"),
-            "line 5: found 'leaf\\x0d'; expected leaf or split or later or joint or prices");
+            "line 5: found 'leaf\\x0d'; expected leaf or split or later or joint or prices or "
+            "formula");
   EXPECT_EQ(refusal_of_proof("joint 1\n"), "line 5: found '1'; expected the end of the line");
   EXPECT_EQ(refusal_of_proof("leaf\nleaf\n"), "line 6: found 'leaf'; expected 'end'");
   EXPECT_THAT(refusal_of_proof("split 0 bar 0 1 1 | 1 bar 0 1 1\nleaf\n"),
-              EndsWith("line 7: found 'end'; expected leaf or split or later or joint or prices"));
+              EndsWith("line 7: found 'end'; expected leaf or split or later or joint or prices or "
+                       "formula"));
   EXPECT_EQ(refusal_of_proof("split 3 bar 0 1 1 | 1 bar 0 1 1\n"),
             "line 5: found '3'; expected the number of an agent, from 0 to 2");
   EXPECT_EQ(refusal_of_proof("split 0 bar 4 1 1 | 1 bar 0 1 1\n"),
@@ -155,6 +157,15 @@ TEST_F(CertificateTexts, FollowTheGrammarExactly) {
             "line 6: the line ends; expected a price, from 0 to 1152921504606846975");
   EXPECT_EQ(refusal_of_proof("prices\nswap 0 1\nend\n"),
             "line 6: found 'swap'; expected place or edge or finish or end");
+  EXPECT_EQ(refusal_of_proof("formula\nwithin 0 0\nsum -1\ncore 0\nend\n"), "it was read");
+  EXPECT_EQ(refusal_of_proof("formula\nwithin 0 0\nsum -2\nend\n"),
+            "line 7: found '2'; expected the number of an earlier variable, or its negation");
+  EXPECT_EQ(refusal_of_proof("formula\nclause\nwithin 0 0\nend\n"),
+            "line 7: found 'within'; expected clause or drop or core or end");
+  EXPECT_EQ(refusal_of_proof("formula\nclause\ndrop 1\nend\n"),
+            "line 7: found '1'; expected the number of an earlier clause, from 0 to 0");
+  EXPECT_EQ(refusal_of_proof("formula\nnode 0 1 2 0 0 since 1 work\nend\n"),
+            "line 6: found 'work'; expected the end of the line");
 }
 
 TEST_F(CertificateTexts, AreRefusedIfTooLarge) {

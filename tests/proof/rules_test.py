@@ -20,6 +20,13 @@ CROSS = Instance(grid("...", "...", "..."), [Agent((3,), 5), Agent((1,), 7)])
 CROSSED = ["split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf", "leaf"]
 # Three straight paths of four steps through one common cell, so that each pair is in conflict.
 STAR = Instance(grid(*["....."] * 5), [Agent((10,), 14), Agent((2,), 22), Agent((14,), 10)])
+# The straight paths, for a formula: variables 1 to 18, of which 18 counts, and two cores.
+STRAIGHT = [*(f"agent {agent} 0" for agent in range(3)), *(f"within {agent} 0" for agent in range(3)),
+            *(f"visit 0 {10 + time} {time}" for time in range(4)), "last 0 14 4",
+            *(f"visit 1 {2 + 5 * time} {time}" for time in range(4)), "last 1 22 4",
+            *(f"visit 2 {14 - time} {time}" for time in range(4)), "last 2 10 4",
+            "sum -1 -2", "count 0 0 2 2", "sum -3 19"]
+CORES = ["core 0", "clause -1 -3", "clause -2 -3", "core 1"]
 # One agent follows the other.
 ROW = Instance(grid("...."), [Agent((1,), 3), Agent((0,), 2)])
 # Two agents exchange places; a detour takes three steps.
@@ -251,6 +258,101 @@ class Rules(unittest.TestCase):
         # If agent 0 came back at time 2, it would pay for the edge at time 3. It therefore comes back at time 4.
         self.verified(instance, "theorem 9", "prices", "edge 0 1 3 2048", "end")
         self.refused(4, "prices prove 8", instance, "theorem 9", "prices", "edge 0 1 3 3072", "end")
+
+    def refused_formula(self, reason, instance, bound, *lines, at):
+        """Asserts that a formula is refused at its line `at`, which is line 1 for the first of `lines`."""
+        self.refused(2 + at, reason, instance, f"theorem {bound}", "formula", *lines, "end")
+
+    def test_formula_proves_the_sum_of_cores(self):
+        # Variables 1 to 3: an agent takes its straight path. Each two of these paths meet on cell 12 at time 2.
+        self.verified(STAR, "theorem 14", "formula", *STRAIGHT, *CORES, "end")
+        self.verified(STAR, "theorem 13", "formula", *STRAIGHT, CORES[0], "end")
+        self.verified(STAR, "theorem 12", "formula", "end")
+        end = len(STRAIGHT) + len(CORES) + 1
+        self.refused_formula("the formula proves 14; expected 15", STAR, 15, *STRAIGHT, *CORES, at=end)
+        self.refused_formula("the formula proves 14; expected inf", STAR, "inf", *STRAIGHT, *CORES, at=end)
+        self.refused_formula("the formula proves 12; expected 13", STAR, 13, at=1)
+        self.refused(2, "a formula requires all agents", STAR, "lemma 9 0 1", "formula", "end")
+        self.refused(3, "a formula requires all agents, without", STAR, "theorem 13",
+                     "split 0 bar 12 2 2 | 1 bar 12 2 2", "formula", "end", "leaf")
+
+    def test_formula_needs_the_variables_of_all_choices(self):
+        first = len(STRAIGHT) + 1
+        for line in ("visit 0 12 2", "visit 1 12 2", "visit 1 7 1", "visit 1 2 0", "agent 1 0"):
+            rest = ["active 1" if known == line else known for known in STRAIGHT]
+            if line == "agent 1 0":
+                rest.remove("active 1")
+            self.refused_formula("the core does not follow", STAR, 14, *rest, CORES[0],
+                                 at=first - (line == "agent 1 0"))
+
+    def test_formula_needs_paths_of_least_cost(self):
+        # Another time, place or agent of a node breaks the path, and a greater excess permits detours.
+        first = len(STRAIGHT) + 1
+        for old, new in (("visit 1 12 2", "visit 1 12 3"), ("visit 1 12 2", "visit 1 11 2"),
+                         ("visit 1 12 2", "visit 2 12 3"), ("visit 1 12 2", "last 1 12 2"),
+                         ("within 1 0", "within 1 1"), ("within 1 0", "within 1 7")):
+            wrong = [new if line == old else line for line in STRAIGHT]
+            self.refused_formula("the core does not follow", STAR, 14, *wrong, CORES[0], at=first)
+        self.verified(STAR, "theorem 14", "formula",
+                      *[line.replace("agent 1 0", "agent 1 2") for line in STRAIGHT], *CORES, "end")
+
+    def test_cores_consist_of_soft_literals(self):
+        first = len(STRAIGHT) + 1
+        soft = "does not deny a soft literal"
+        self.refused_formula(soft, STAR, 14, *STRAIGHT, "core 1", at=first)
+        self.refused_formula(soft, STAR, 14, *STRAIGHT, CORES[0], CORES[0], at=first + 1)
+        for wrong in ("sum -1 -1", "sum 1 -2", "sum -1 -4", "sum -1 -2 -5"):
+            self.refused_formula(soft, STAR, 14, *STRAIGHT, wrong, "core 2", at=first + 1)
+        self.refused_formula("the core does not follow", STAR, 14, *STRAIGHT, "sum -1", "core 2", at=first + 1)
+        self.refused_formula("no sum 2", STAR, 14, *STRAIGHT, "core 2", at=first)
+        # A count of one input or more says no more than the core.
+        one = [line.replace("count 0 0 2 2", "count 0 0 2 1") for line in STRAIGHT]
+        self.refused_formula(soft, STAR, 14, *one, *CORES, at=first + 3)
+
+    def test_clauses_follow_by_unit_propagation(self):
+        first = len(STRAIGHT) + 1
+        self.verified(STAR, "theorem 14", "formula", *STRAIGHT, "clause -1 -2", "clause -3 -1", "drop 0", *CORES, "end")
+        for wrong in ("clause -1", "clause 1 2", "clause", "clause -1 2", "clause 4 5"):
+            self.refused_formula("the clause does not follow", STAR, 14, *STRAIGHT, wrong, at=first)
+        self.refused_formula("no clause 0", STAR, 14, *STRAIGHT, "drop 0", at=first)
+        for wrong in ("clause 0", "clause 99", "clause -99"):
+            self.refused_formula("there is no variable", STAR, 14, *STRAIGHT, wrong, at=first)
+
+    def test_splits_of_formulas_are_permitted_pairs(self):
+        bars = ["meets 0 bar 12 2 2", "meets 1 bar 12 2 2"]
+        begin = [line for line in STRAIGHT if not line.startswith(("sum", "count"))]
+        self.verified(STAR, "theorem 12", "formula", *begin, *bars, "split 19 20", "end")
+        for wrong, split in (("meets 1 bar 12 3 3", "19 20"), ("meets 1 bar 11 2 2", "19 20"),
+                             ("meets 0 bar 12 2 2", "19 20"), ("meets 1 bar 12 2 3", "19 20"),
+                             (bars[1], "19 19"), (bars[1], "19 -20"), (bars[1], "-19 20"), (bars[1], "19 1")):
+            self.refused_formula("may satisfy neither", STAR, 13, *begin, bars[0], wrong, f"split {split}",
+                                 at=len(begin) + 4)
+        self.refused_formula("expected a constraint on places", ERRANDS, 11, "meets 0 stop 0 0", at=1)
+
+    def test_constraints_in_formulas_exclude_what_violates_them(self):
+        # Variable 2: agent 1 takes its straight path.
+        begin = [line for line in STRAIGHT if not line.startswith(("sum", "count"))]
+        first = len(begin) + 1
+        for good, wrong in (("bar 12 2 2", "bar 12 3 3"), ("bar 12 0 inf", "bar 12 0 1"),
+                            ("move 7 12 2 2", "move 7 12 3 3"), ("move 12 17 3 3", "move 17 12 3 3"),
+                            ("norest 22 4", "norest 22 3"), ("rest 22 3", "rest 22 4"), ("rest 21 9", "rest 22 9"),
+                            ("bar 22 9 9", "bar 22 9 8")):
+            self.verified(STAR, "theorem 12", "formula", *begin, f"meets 1 {good}", "clause -2 -19", "end")
+            self.refused_formula("the clause does not follow", STAR, 14, *begin, f"meets 1 {wrong}", "clause -2 -19",
+                                 at=first + 1)
+
+    def test_names_in_formulas_exist(self):
+        for wrong, reason in (("within 3 0", "no agent 3"), ("visit 0 25 0", "no place 25"),
+                              ("node 0 0 10 0 0", "needs no nodes"), ("inside 0 12 13 1", "last place of a chain"),
+                              ("count 0 0 2 2", "no sum 0"), ("sum 1", "no variable 1"), ("split 1 1", "no variable 1"),
+                              ("meets 3 bar 1 1 1", "agent 3 is not among")):
+            self.refused_formula(reason, STAR, 13, wrong, at=1)
+        self.refused_formula("this variable exists", STAR, 13, "within 0 0", "within 0 0", at=2)
+        for wrong in ("count 0 0 1 1", "count 0 0 3 1", "count 0 0 2 3", "count 0 0 2 0", "count 0 1 0 1"):
+            self.refused_formula("expected two inputs or more", STAR, 13, "within 0 0", "sum -1 -1", wrong, at=3)
+        for wrong, reason in (("node 0 0 2 1 0", "no such pose"), ("node 0 0 2 0 8", "no such stop"),
+                              ("node 0 0 2 0 0 work 0 1", "no such stop"), ("node 1 0 3 0 0", "needs no nodes")):
+            self.refused_formula(reason, ERRANDS, 11, wrong, at=1)
 
     def test_certificate_of_another_instance_is_refused(self):
         text = certificate(CROSS, "theorem 4", "leaf")

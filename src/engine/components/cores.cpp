@@ -148,6 +148,9 @@ class CoresWork::Item : public WorkItem {
   void commit() override {
     SharedBounds& bounds = work_.context_.bounds;
     if (progress_.plan) bounds.post(std::move(*progress_.plan), PlanSource::kCores);
+    ProofLog* const proof = work_.context_.options.proof;
+    if (proof != nullptr && progress_.proven > bounds.lower_bound())
+      proof->formula_bound(progress_.proven);
     bounds.prove(progress_.proven, ComponentId::kCores);
     work_.exchange_excesses();
   }
@@ -165,7 +168,7 @@ CoresWork::Progress CoresWork::run() {
   if (!search_)
     search_ = std::make_unique<CoreSearch>(
         context_.problem, context_.stops, techniques_of(context_.options),
-        at_most_a_quarter(kMaxCoresBytes, context_.limits), context_.limits,
+        at_most_a_quarter(kMaxCoresBytes, context_.limits), context_.limits, context_.options.proof,
         static_cast<std::uint64_t>(context_.rank));
   const std::int64_t before = search_->work();
   over_ = search_->step(context_.bounds.cutoff()) != CoreSearch::Outcome::kWorking;
@@ -180,8 +183,10 @@ CoresWork::Progress CoresWork::run() {
   return progress;
 }
 
-// Reads the statements of the tree search when its effort has doubled.
+// Reads the statements of the tree search when its effort has doubled. With a proof nothing is
+// exchanged, because a formula cannot use lemmas, and trees cannot use cores.
 void CoresWork::exchange_excesses() {
+  if (context_.options.proof != nullptr) return;
   const Tree* const tree = context_.results.first_tree();
   if (!search_ || !search_->is_set_up() || tree == nullptr) return;
   std::vector<GroupExcess> found = search_->take_excesses();
@@ -245,10 +250,8 @@ class CoresComponent : public Component {
 
 }  // namespace
 
-// Certificates cannot contain cores yet.
 std::unique_ptr<Component> make_cores_component(const ComponentContext& context) {
-  if (!techniques_of(context.options).has(Technique::kCores) || context.options.proof != nullptr)
-    return nullptr;
+  if (!techniques_of(context.options).has(Technique::kCores)) return nullptr;
   return std::make_unique<CoresComponent>(context);
 }
 

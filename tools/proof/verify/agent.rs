@@ -83,6 +83,17 @@ impl Poses {
 
     fn on(&self, place: Place) -> std::ops::Range<u32> { place * self.each..(place + 1) * self.each }
 
+    fn is_within_turn(&self, pose: u32) -> bool { self.turn > 0 && pose % self.each >= 4 }
+
+    /// Returns the pose with this number on a place, in the numbering of docs/proof.md. None: there is no such pose.
+    pub fn numbered(&self, place: Place, number: u32) -> Option<u32> {
+        if number >= self.each { return None; }
+        if number < 4 { return Some(place * self.each + number); }
+        let (turn, k) = ((number - 4) / (self.turn - 1), (number - 4) % (self.turn - 1) + 1);
+        let from = turn % 4;
+        Some(self.pose(place, (from, (from + if turn < 4 { 1 } else { 3 }) % 4, k)))
+    }
+
     /// Returns, for each pose, the minimum over all sources of the cost of going to the source plus the cost of the source; NEVER if no
     /// source is reachable. A source is (cost, pose).
     fn spread(&self, mut sources: Vec<(u32, u32)>) -> Vec<u32> {
@@ -209,6 +220,15 @@ impl AgentModel {
     pub fn all(&self) -> u64 { (1 << self.stops.len()) - 1 }
 
     pub fn stops_at(&self, place: Place) -> u64 { self.stops_at.get(place as usize).copied().unwrap_or(0) }
+
+    /// Returns whether the agent may rest on a place when all its stops are done.
+    pub fn may_rest_on(&self, place: Place) -> bool { self.poses.on(place).any(|pose| self.ends[pose as usize] == 0) }
+
+    /// Returns whether the paths of a formula contain task executions in this pose: in no turn except that of the start.
+    pub fn may_execute_in(&self, pose: u32) -> bool { !self.poses.is_within_turn(pose) || pose == self.start }
+
+    /// Returns whether a place and a time determine what the agent does there, except for its last arrival.
+    pub fn is_plain(&self) -> bool { self.stops.is_empty() && self.poses.turn == 0 }
 
     pub fn has_no_duration(&self, stops: u64) -> u64 {
         (0..self.stops.len()).filter(|&j| stops >> j & 1 == 1 && self.stops[j].duration == 0).fold(0, |all, j| all | 1 << j)

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 //! grove-verify: verifies that a certificate proves its bound. Implements docs/proof.md and shares no code with Grove.
 mod agent;
+mod clauses;
 mod covering;
+mod formula;
 mod instance;
 mod joint;
 mod json;
 mod keys;
 mod orders;
+mod paths;
 mod prices;
 mod proof;
 mod reader;

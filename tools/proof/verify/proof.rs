@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 //! Verifies a certificate: lemmas, the theorem, and the rules of their proofs (docs/proof.md, sections 3 and 4).
 use crate::agent::{AgentModel, Poses, NEVER};
+use crate::formula::Formula;
 use crate::instance::Instance;
 use crate::joint::{Joint, Layers};
+use crate::paths::Paths;
 use crate::prices::{Prices, UNIT};
 use crate::reader::Lines;
 use crate::rules::{Chains, Constraint, Kind, Rules};
@@ -199,6 +201,7 @@ impl Verifier {
                 "leaf" => self.leaf(rest, of).map(|_| None)?,
                 "joint" if rest.is_empty() => self.joint(of).map(|_| None)?,
                 "prices" if rest.is_empty() => self.prices(of).map(|_| None)?,
+                "formula" if rest.is_empty() => self.formula(of).map(|_| None)?,
                 _ => return Err(unreadable("expected a rule")),
             };
             let next = if let Some((one, two)) = sides {
@@ -220,9 +223,14 @@ impl Verifier {
     fn split(&mut self, text: &str, of: &Lemma) -> Result<(Constraint, Constraint), Fault> {
         let (one, two) = text.split_once(" | ").ok_or_else(|| unreadable("expected two constraints"))?;
         let (one, two) = (self.constraint(one, of)?, self.constraint(two, of)?);
+        ensure(self.permits(&one, &two), "a plan may satisfy neither of these constraints").map(|_| (one, two))
+    }
+
+    /// Returns whether each plan considered satisfies at least one of two constraints.
+    fn permits(&self, one: &Constraint, two: &Constraint) -> bool {
         let same = (one.p, one.q, one.s) == (two.p, two.q, two.s);
         let at_once = one.s == one.e && two.s == two.e;
-        let permitted = match (one.kind, two.kind, one.agent == two.agent) {
+        match (one.kind, two.kind, one.agent == two.agent) {
             (Kind::Bar, Kind::Bar, false) => at_once && one.p == two.p && one.s.abs_diff(two.s) <= u32::from(!self.following),
             (Kind::Move, Kind::Move, false) => at_once && (one.p, one.q, one.s) == (two.q, two.p, two.s),
             (Kind::NoRest, Kind::Rest, true) | (Kind::Rest, Kind::NoRest, true) => same,
@@ -233,8 +241,7 @@ impl Verifier {
                 exits.map_or(false, |(this, that)| this.0 == that.0 && this.1 != that.1 && times(this.2.length))
             }
             _ => false,
-        };
-        ensure(permitted, "a plan may satisfy neither of these constraints").map(|_| (one, two))
+        }
     }
 
     /// Parses the index of a lemma and returns the lemma. Refuses it if it is about an agent outside `of`, or has a constraint that is not
@@ -350,6 +357,59 @@ impl Verifier {
         }
         for (&agent, &cap) in agents.iter().zip(caps) { layers.push(Layers::of(&mut self.successors(agent).1, cap, horizon)); }
         Joint { layers, limit, horizon, following: self.following }.finds_none()
+    }
+
+    /// Returns the least cost of an agent without constraints, as exactly as is affordable. NEVER: it has no path.
+    fn least_cost(&mut self, agent: u32) -> u32 {
+        let mut cost = self.cost(agent, true);
+        while cost < NEVER && self.raise_limit(agent) { cost = self.cost(agent, true); }
+        cost
+    }
+
+    fn formula(&mut self, of: &Lemma) -> Result<(), Fault> {
+        let (agents, places) = (self.models.len(), self.instance.world.links.len());
+        ensure(of.agents.len() == agents && self.trail.is_empty(), "a formula requires all agents, without constraints")?;
+        let mut formula = Formula::new(agents);
+        let mut line = self.line()?;
+        loop {
+            let (name, rest) = line.split_once(' ').unwrap_or((line.as_str(), ""));
+            match name {
+                "meets" => formula.meets(self.constraint(rest, of)?)?,
+                "node" => {
+                    let mut tokens = Tokens::rest(rest);
+                    let agent = tokens.index(agents, "agent")?;
+                    formula.node(agent, self.model(agent), places, &mut tokens)?;
+                }
+                _ if !formula.define(name, &mut Tokens::rest(rest), places, &self.chains)? => break,
+                _ => (),
+            }
+            line = self.line()?;
+        }
+        let costs: Vec<u32> = (0..agents as u32).map(|agent| self.least_cost(agent)).collect();
+        let sum: u64 = costs.iter().map(|&cost| u64::from(cost)).sum();
+        let proven = costs.contains(&NEVER) || sum >= of.bound;
+        if !proven { self.add_clauses(&mut formula, &costs, Some(of.bound - 1 - sum).filter(|_| of.bound < INFINITE))?; }
+        while line != "end" {
+            let (name, rest) = line.split_once(' ').unwrap_or((line.as_str(), ""));
+            let known = proven || formula.step(name, &mut Tokens::rest(rest))?;
+            if !known { return Err(unreadable("expected a line of a formula")); }
+            line = self.line()?;
+        }
+        let raised = formula.proven();
+        let proven = proven || raised.map_or(true, |raised| sum + raised >= of.bound);
+        ensure(proven, format!("the formula proves {}; expected {}", sum + raised.unwrap_or(0), text(of.bound)))
+    }
+
+    /// Adds the clauses that hold for all plans in which the sum of the excesses over `costs` is at most `excess` (None: for all plans).
+    fn add_clauses(&mut self, formula: &mut Formula, costs: &[u32], excess: Option<u64>) -> Result<(), Fault> {
+        formula.close(excess, &self.chains, |one, two| self.permits(one, two))?;
+        for (agent, level) in formula.levels() {
+            let (cost, (_, successors)) = (costs[agent as usize], self.successors(agent));
+            let paths = Paths::of(successors.model, cost + level);
+            let paths = paths.ok_or_else(|| (1, format!("orders of agent {} with many tasks, too far from the best one", agent)))?;
+            formula.add_paths(agent, successors.model, &paths, cost, level);
+        }
+        Ok(())
     }
 
     fn prices(&mut self, of: &Lemma) -> Result<(), Fault> {

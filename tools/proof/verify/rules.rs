@@ -27,6 +27,11 @@ pub struct Chain {
     pub length: u32,
 }
 
+impl Chain {
+    /// For a traversal that leaves on a side (1 or 2): the end by which it enters, and its first inner place.
+    pub fn entry(&self, side: u8) -> (Place, Place) { if side == 1 { (self.ends[1], self.last) } else { (self.ends[0], self.first) } }
+}
+
 /// All chains of a world.
 pub struct Chains {
     /// For each place the index of its chain, or NONE.
@@ -59,6 +64,9 @@ impl Chains {
         }
         found
     }
+
+    /// Returns whether a place is an inner place of the chain with this index.
+    pub fn contains(&self, chain: u32, place: Place) -> bool { self.of[place as usize] == chain }
 
     /// Returns the side of the chain (1: ends[0], 2: ends[1]) on which a step between the inner place and the end enters or leaves it.
     fn side(&self, inner: Place, end: Place) -> u8 {

@@ -29,8 +29,21 @@ pub type Set<K> = HashSet<K, BuildHasherDefault<Quick>>;
 /// The words of a line, separated by single blanks.
 pub struct Tokens<'a>(std::str::Split<'a, char>);
 
+fn parse(token: &str) -> Result<u64, Fault> {
+    let digits = Some(token).filter(|token| !token.is_empty() && token.bytes().all(|byte| byte.is_ascii_digit()));
+    let digits = digits.ok_or_else(|| unreadable(format!("found '{:.20}'; expected a number", token)))?;
+    digits.parse().map_err(|_| (1, "the number is too large".to_string()))
+}
+
 impl<'a> Tokens<'a> {
     pub fn of(line: &'a str) -> Tokens<'a> { Tokens(line.split(' ')) }
+
+    /// The words of a line without a word that begins it, perhaps none.
+    pub fn rest(text: &'a str) -> Tokens<'a> {
+        let mut words = Tokens::of(text);
+        if text.is_empty() { words.0.next(); }
+        words
+    }
 
     pub fn more(&self) -> bool { self.0.clone().next().is_some() }
 
@@ -38,12 +51,7 @@ impl<'a> Tokens<'a> {
         self.0.next().filter(|token| !token.is_empty()).ok_or_else(|| unreadable("expected another word"))
     }
 
-    pub fn whole(&mut self) -> Result<u64, Fault> {
-        let token = self.token()?;
-        let digits = Some(token).filter(|token| token.bytes().all(|byte| byte.is_ascii_digit()));
-        let digits = digits.ok_or_else(|| unreadable(format!("found '{:.20}'; expected a number", token)))?;
-        digits.parse().map_err(|_| (1, "the number is too large".to_string()))
-    }
+    pub fn whole(&mut self) -> Result<u64, Fault> { parse(self.token()?) }
 
     pub fn number(&mut self) -> Result<u32, Fault> {
         let value = self.whole()?;
@@ -60,6 +68,21 @@ impl<'a> Tokens<'a> {
         if self.0.clone().next() != Some("inf") { return self.number().map(Some); }
         self.0.next();
         Ok(None)
+    }
+
+    /// Takes the next word if it is `word`.
+    pub fn take(&mut self, word: &str) -> bool {
+        let found = self.0.clone().next() == Some(word);
+        if found { self.0.next(); }
+        found
+    }
+
+    /// Parses a number that may have a minus sign. Returns the number without the sign, and whether it has one.
+    pub fn signed(&mut self) -> Result<(u32, bool), Fault> {
+        let token = self.token()?;
+        let digits = token.strip_prefix('-');
+        let value = parse(digits.unwrap_or(token))?;
+        ensure(value < u64::from(NEVER), "the number is too large").map(|_| (value as u32, digits.is_some()))
     }
 
     pub fn end(&mut self) -> Result<(), Fault> {

@@ -26,11 +26,12 @@ export interface Row {
 // it, on the way from the root.
 export interface Step {
   line: number;
-  kind: "leaf" | "split" | "later" | "joint" | "prices";
+  kind: "leaf" | "split" | "later" | "joint" | "prices" | "formula";
   lemmas: number[]; // indices of the lemmas that it uses
   sides: Constraint[]; // the two constraints of `split` and `later`; empty for other steps
   children: Step[]; // one per side
   rows: Row[];
+  cores: number; // of `formula`
   above: { step: Step; side: number } | null;
   depth: number;
   leaves: number; // number of steps without children in the subtree of this step
@@ -153,7 +154,7 @@ class Reader {
   private step(kind: string, above: Step["above"]): Step {
     const { lines } = this;
     const step: Step = {
-      line: lines.number, kind: "leaf", lemmas: [], sides: [], children: [], rows: [], above,
+      line: lines.number, kind: "leaf", lemmas: [], sides: [], children: [], rows: [], cores: 0, above,
       depth: above ? above.step.depth + 1 : 0, leaves: 0,
     };
     switch (kind) {
@@ -170,14 +171,28 @@ class Reader {
       case "prices":
         for (let word = lines.next(); word !== "end"; word = lines.next()) step.rows.push(this.row(word));
         break;
+      case "formula":
+        step.cores = this.formula();
+        break;
       case "joint":
         break;
       default:
-        return lines.fail("leaf, split, later, joint or prices");
+        return lines.fail("leaf, split, later, joint, prices or formula");
     }
     step.kind = kind;
     step.leaves = step.sides.length > 0 ? 0 : 1;
     return step;
+  }
+
+  // Skips the lines of a formula. Returns the number of its cores.
+  private formula(): number {
+    const { lines } = this;
+    let cores = 0;
+    for (let word = lines.next(); word !== "end"; word = lines.next()) {
+      if (word === "core") cores++;
+      while (lines.hasMore) lines.word();
+    }
+    return cores;
   }
 
   private behindBar(): Constraint {

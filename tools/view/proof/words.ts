@@ -47,11 +47,12 @@ export function stepText(model: Model, statement: Statement, step: Step): string
 }
 
 // Returns a short note on how a step is proven.
-export function noteText({ kind, lemmas, leaves, rows }: Step): string {
+export function noteText({ kind, lemmas, leaves, rows, cores }: Step): string {
   switch (kind) {
     case "leaf": return lemmas.length === 0 ? "individual costs" : lemmasText(lemmas);
     case "joint": return "joint search";
     case "prices": return plural(rows.length, "multiplier");
+    case "formula": return plural(cores, "core");
     default: return leavesText(leaves);
   }
 }
@@ -78,6 +79,7 @@ export function howText({ theorem, lemmas }: Certificate): string {
   const { root, steps } = theorem;
   if (root.kind === "joint") return "proven by a search of all agents' joint paths";
   if (root.kind === "prices") return `proven by ${plural(root.rows.length, "multiplier")} of places, moves and finish times`;
+  if (root.kind === "formula") return `proven by ${plural(root.cores, "unsatisfiable core")}`;
   const splits = steps.filter(({ sides }) => sides.length > 0).length;
   return `proven by ${plural(splits, "split")}, ${leavesText(root.leaves)} and ${plural(lemmas.length, "lemma")}`;
 }
@@ -140,6 +142,9 @@ export function closedText(model: Model, { agents, bound }: Statement, step: Ste
     case "prices":
       return "By multipliers of places, moves and pairs of finish times, each of which at most one agent uses: the least costs of " +
         "the agents including multipliers, minus the sum of all multipliers, are a lower bound on the cost of all agents.";
+    case "formula":
+      return `By ${plural(step.cores, "unsatisfiable core")}: sets of limits on the costs of agents, found by a SAT solver. No plan ` +
+        "meets all limits of a set. Together they prove a lower bound on the cost of all agents.";
     default:
       if (step.lemmas.length > 0)
         return `By the agents' individual costs, and the excess by ${lemmasText(step.lemmas)}: ${much}.`;
