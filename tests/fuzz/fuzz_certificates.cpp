@@ -18,6 +18,11 @@
 #include <vector>
 
 #include "engine/run_observer.h"
+#include "planning/agent_stops_cache.h"
+#include "planning/problem.h"
+#ifdef GROVE_WITH_CADICAL
+#include "cores/core_search.h"
+#endif
 #include "io/instance_file.h"
 #include "io/map_file.h"
 #include "io/roadmap_file.h"
@@ -26,6 +31,7 @@
 #include "tests/fuzz/certificate_lines.h"
 #include "tests/fuzz/certificate_mutation.h"
 #include "tests/fuzz/component_case.h"
+#include "tests/fuzz/formula_model.h"
 #include "tests/fuzz/fuzz_case.h"
 #include "tests/oracle/joint_oracle.h"
 
@@ -66,9 +72,10 @@ struct Verdict {
   Cost bound = 0;  // the verified bound, if code == 0
 };
 
-Verdict verdict_of(const Arguments& a, const fs::path& instance, const fs::path& proof) {
-  const std::string command =
-      fmt::format("'{}' '{}' '{}' 2>&1", a.verify.string(), instance.string(), proof.string());
+Verdict verdict_of(const Arguments& a, const fs::path& instance, const fs::path& proof,
+                   const std::string& options = "") {
+  const std::string command = fmt::format("'{}' '{}' '{}' {} 2>&1", a.verify.string(),
+                                          instance.string(), proof.string(), options);
   std::FILE* const pipe = ::popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("cannot run the checker");
   Verdict verdict;
@@ -139,10 +146,8 @@ class Trial {
     const Cost claimed = is_infeasible ? kInfiniteCost : solution.lower_bound;
     const Certificate made = write_certificate(instance, std::array{part_}, claimed, proof_);
     judge(made, claimed, solution);
-    if (a_.mutations == 0) return;
-    const Lines original = certificate_lines(proof_);
-    for (int i = 0; i < a_.mutations; ++i)
-      verify_mutant(original, seed * 1000 + static_cast<std::uint64_t>(i));
+    test_mutants(seed);
+    if (part_of_search_ == Part::kCores) test_core_search(instance, truth, seed);
   }
 
   bool is_well() const { return wrong_ == 0; }
@@ -159,7 +164,8 @@ class Trial {
         "reason: ",
         cases_, whole_, of_optimum_, cases_ - whole_);
     for (const auto& [reason, count] : lesser_) text += fmt::format("{}: {}; ", reason, count);
-    text += fmt::format(")\n{} mutated: {} refused, {} unreadable, {} believed and true\n{} wrong",
+    text += fmt::format(")\n{} formulas are true for the optimal plan\n", formulas_);
+    text += fmt::format("{} mutated: {} refused, {} unreadable, {} believed and true\n{} wrong",
                         mutants_, refused_, unreadable_, believed_, wrong_);
     return text;
   }
@@ -228,12 +234,73 @@ class Trial {
       complain(fmt::format("only {} of {} is certified", made.bound, claimed));
   }
 
+  void test_mutants(std::uint64_t seed) {
+    const Lines original = certificate_lines(proof_);
+    for (int i = 0; i < a_.mutations; ++i)
+      verify_mutant(original, seed * 1000 + static_cast<std::uint64_t>(i));
+  }
+
+  // The core search by itself, with different cutoffs, so that each bound above the sum of the least
+  // costs is proven by a formula.
+  void test_core_search([[maybe_unused]] const Instance& instance,
+                        [[maybe_unused]] const oracle::Answer& truth,
+                        [[maybe_unused]] std::uint64_t seed) {
+#ifdef GROVE_WITH_CADICAL
+    fs::remove(part_);
+    ProofRecorder recorder(part_);
+    const auto agents = static_cast<std::size_t>(instance.agent_count());
+    recorder.tree({.root = 1, .cost = 0, .sequences = std::vector<Sequence>(agents)});
+    Limits limits;
+    limits.set_deadline(Limits::Clock::now() +
+                        std::chrono::microseconds(static_cast<std::int64_t>(a_.seconds * 1e6)));
+    const Problem problem(instance, limits);
+    const AgentStopsCache stops(instance, problem.distances);
+    constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
+    CoreSearch search(problem, stops, case_.options.techniques, kMaxBytes, limits, &recorder);
+    const std::array<Cost, 4> cutoffs{kInfiniteCost, optimum_, optimum_ + 1, optimum_ + 3};
+    const Cost cutoff = truth.plan ? cutoffs[seed / 2 % cutoffs.size()] : kInfiniteCost;
+    while (search.step(cutoff) == CoreSearch::Outcome::kWorking) continue;
+    if (!search.is_set_up()) return;
+    recorder.formula_bound(search.lower_bound());
+    recorder.flush();
+    const Certificate made =
+        write_certificate(instance, std::array{part_}, search.lower_bound(), proof_);
+    judge(made, search.lower_bound(), Solution{});
+    const Lines lines = certificate_lines(proof_);
+    if (truth.plan) check_formula(lines, instance, *truth.plan);
+    test_mutants(seed);
+#endif
+  }
+
+  // The clauses of a formula that are true for all plans up to the optimum must be true for the
+  // optimal plan.
+  void check_formula([[maybe_unused]] const Lines& original,
+                     [[maybe_unused]] const Instance& instance, [[maybe_unused]] const Plan& plan) {
+#ifdef GROVE_WITH_CADICAL
+    const Lines definitions = definitions_only(original, optimum_);
+    if (definitions.empty()) return;
+    ++formulas_;
+    write_lines(definitions);
+    const fs::path clauses = a_.folder / "proofs.cnf";
+    fs::remove(clauses);
+    const Verdict verdict = verdict_of(a_, instance_file_, mutant_,
+                                       fmt::format("--clauses '{}'", clauses.string()));
+    if (verdict.code != 1)
+      complain("a formula without steps is not refused: " + verdict.text);
+    else if (!has_model(clauses, definitions, instance, plan))
+      complain("the optimal plan violates the clauses of a formula");
+#endif
+  }
+
+  void write_lines(const Lines& lines) const {
+    std::ofstream out(mutant_, std::ios::binary);
+    for (const std::string& line : lines) out << line << '\n';
+  }
+
   void verify_mutant(const Lines& original, std::uint64_t seed) {
     const Lines lines = mutated(original, seed);
     if (lines == original) return;
-    std::ofstream out(mutant_, std::ios::binary);
-    for (const std::string& line : lines) out << line << '\n';
-    out.close();
+    write_lines(lines);
     ++mutants_;
     const Verdict verdict = verdict_of(a_, instance_file_, mutant_);
     switch (verdict.code) {
@@ -268,6 +335,7 @@ class Trial {
   FuzzCase case_;
   Cost optimum_ = 0;
   int false_ = 0, refused_or_short_ = 0, refused_false_ = 0, false_and_verified_ = 0, threw_ = 0;
+  int formulas_ = 0;
   int cases_ = 0, whole_ = 0, of_optimum_ = 0, wrong_ = 0;
   int mutants_ = 0, refused_ = 0, unreadable_ = 0, believed_ = 0;
   std::map<std::string, int> lesser_;

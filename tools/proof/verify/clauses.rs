@@ -93,6 +93,30 @@ impl Clauses {
         !consistent
     }
 
+    /// Returns all clauses in DIMACS format, with the exclusions of the groups.
+    pub fn dimacs(&self) -> String {
+        let mut clauses: Vec<Vec<Literal>> = self.trail.iter().map(|&literal| vec![literal]).collect();
+        let mut at = 0;
+        while at < self.arena.len() {
+            let end = at + 1 + (self.arena[at] & !DROPPED) as usize;
+            clauses.push(self.arena[at + 1..end].to_vec());
+            at = end;
+        }
+        for group in &self.groups {
+            for (number, one) in group.iter().enumerate() {
+                let others = group[..number].iter().filter(|other| other.0 != one.0);
+                clauses.extend(others.map(|other| vec![2 * one.1 + 1, 2 * other.1 + 1]));
+            }
+        }
+        if self.refuted { clauses.push(Vec::new()); }
+        let mut text = format!("p cnf {} {}\n", self.group_of.len(), clauses.len());
+        for clause in clauses {
+            for literal in clause { text += &format!("{}{} ", if literal % 2 == 1 { "-" } else { "" }, literal / 2 + 1); }
+            text += "0\n";
+        }
+        text
+    }
+
     fn value(&self, literal: Literal) -> i8 { self.values[literal as usize] }
 
     /// Makes a literal true. Returns false if it is false.

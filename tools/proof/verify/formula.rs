@@ -400,6 +400,9 @@ impl Formula {
         }
     }
 
+    /// Returns the clauses in DIMACS format.
+    pub fn dimacs(&self) -> String { self.clauses.dimacs() }
+
     /// Verifies a step. Returns false if the line is something else.
     pub fn step(&mut self, name: &str, tokens: &mut Tokens) -> Result<bool, Fault> {
         match name {

@@ -23,7 +23,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-const USAGE: &str = "Usage: grove-verify INSTANCE PROOF [--time-limit SECONDS] [--memory-limit GB] [--confine] [--stats]
+const USAGE: &str = "Usage: grove-verify INSTANCE PROOF [--time-limit SECONDS] [--memory-limit GB] [--confine] [--clauses FILE] [--stats]
        grove-verify FILE.scen PROOF --agents N [--map FILE.map] ...
 
 Verifies that a certificate proves its lower bound on the cost of every valid plan of the instance.
@@ -33,6 +33,7 @@ Verifies that a certificate proves its lower bound on the cost of every valid pl
   --time-limit SECONDS   refuse after this time (default: no limit).
   --memory-limit GB      refuse when more memory is needed (default: 4). The window of zstd, at most 128 MiB, is not counted.
   --confine              refuse an instance that names a map or roadmap outside its own folder.
+  --clauses FILE         write the clauses that the checker makes for a formula, in DIMACS format.
   --stats                print lines, nodes, lemmas, searches and time to standard error.
 
 Exit codes: 0 'verified: ...', the bound is proven; 1 'refused: ...', it is not proven, or not within the limits;
@@ -84,10 +85,11 @@ struct Arguments {
     seconds: Option<f64>,
     confine: bool,
     stats: bool,
+    clauses: Option<String>,
 }
 
 fn arguments() -> Result<Arguments, String> {
-    let mut found = Arguments { files: Vec::new(), agents: None, map: None, seconds: None, confine: false, stats: false };
+    let mut found = Arguments { files: Vec::new(), agents: None, map: None, seconds: None, confine: false, stats: false, clauses: None };
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         let mut number = |max: f64| {
@@ -101,6 +103,7 @@ fn arguments() -> Result<Arguments, String> {
             "--map" => found.map = Some(words.next().ok_or("--map: expected a file")?),
             "--confine" => found.confine = true,
             "--stats" => found.stats = true,
+            "--clauses" => found.clauses = Some(words.next().ok_or("--clauses: expected a file")?),
             "--help" => {
                 println!("{}", USAGE);
                 std::process::exit(0);
@@ -125,6 +128,7 @@ fn verify(arguments: &Arguments) -> (i32, String) {
         Err(reason) => return (2, format!("unreadable: {}", reason)),
     };
     let mut verifier = proof::Verifier::new(instance, lines);
+    verifier.clauses = arguments.clauses.clone();
     let outcome = verifier.run();
     if arguments.stats { eprintln!("{}, {:.3} s", verifier.statistics(), begin.elapsed().as_secs_f64()); }
     let line = LINE.load(Ordering::Relaxed);

@@ -51,6 +51,8 @@ pub struct Verifier {
     /// For each agent its known costs, with ascending numbers of constraints.
     known: Vec<Vec<Known>>,
     nodes: u64,
+    /// File to which the clauses of a formula are written.
+    pub clauses: Option<String>,
 }
 
 fn text(bound: u64) -> String { if bound == INFINITE { "inf".to_string() } else { bound.to_string() } }
@@ -61,7 +63,7 @@ impl Verifier {
         let (constraints, known, models) = ((0..agents).map(|_| vec![]), (0..agents).map(|_| vec![]), (0..agents).map(|_| None));
         let (constraints, known, models) = (constraints.collect(), known.collect(), models.collect());
         let (poses, search, lemmas, trail, present) = Default::default();
-        Verifier { instance, chains, poses, models, rules, search, lines, following: true, lemmas, trail, constraints, present, known, nodes: 0 }
+        Verifier { instance, chains, poses, models, rules, search, lines, following: true, lemmas, trail, constraints, present, known, nodes: 0, clauses: None }
     }
 
     pub fn statistics(&self) -> String {
@@ -409,7 +411,8 @@ impl Verifier {
             let paths = paths.ok_or_else(|| (1, format!("orders of agent {} with many tasks, too far from the best one", agent)))?;
             formula.add_paths(agent, successors.model, &paths, cost, level);
         }
-        Ok(())
+        let written = self.clauses.as_ref().map_or(Ok(()), |file| std::fs::write(file, formula.dimacs()));
+        written.map_err(|error| unreadable(format!("cannot write the clauses: {}", error)))
     }
 
     fn prices(&mut self, of: &Lemma) -> Result<(), Fault> {
