@@ -154,6 +154,51 @@ TEST_F(Certificates, UsePricesIfTheyProveMore) {
   EXPECT_THAT(made(4), ElementsAre("theorem 4", "leaf", "end"));
 }
 
+// The lines of an earlier formula, and those after the bound, are not part of the certificate.
+TEST_F(Certificates, UseAFormulaUpToTheBoundThatTheyNeed) {
+  recorder_.tree(tree_);
+  using Kind = FormulaKind;
+  const auto log = [&](Kind kind, std::vector<std::int64_t> numbers) {
+    recorder_.formula(kind, numbers);
+  };
+  log(Kind::kBegin, {});
+  log(Kind::kWithin, {1, 0});
+  log(Kind::kBegin, {});
+  log(Kind::kAgent, {0, 2});
+  log(Kind::kWithin, {0, 1});
+  log(Kind::kClause, {-1});
+  log(Kind::kRests, {0, 3, kNever});
+  log(Kind::kNode, {0, 4, 3, 0, 2, -1, 0, -1});
+  log(Kind::kNode, {0, 5, 3, 1, 2, 1, 3, 4});
+  log(Kind::kMeets, {1, 2, 1, 0, kNever, 0});
+  log(Kind::kSum, {-1, 2});
+  log(Kind::kCount, {0, 0, 2, 2});
+  log(Kind::kCore, {0});
+  recorder_.formula_bound(5);
+  log(Kind::kDrop, {0});
+  log(Kind::kActive, {1});
+  log(Kind::kCore, {0});
+  recorder_.formula_bound(6);
+  const std::vector<std::string> lines{"theorem 5",
+                                       "formula",
+                                       "agent 0 2",
+                                       "within 0 1",
+                                       "rests 0 3 inf",
+                                       "node 0 4 3 0 2",
+                                       "node 0 5 3 1 2 work 1 3 since 4",
+                                       "meets 1 move 1 2 0 inf",
+                                       "sum -1 2",
+                                       "count 0 0 2 2",
+                                       "clause -1",
+                                       "core 0",
+                                       "end",
+                                       "end"};
+  EXPECT_EQ(made(5), lines);
+  EXPECT_THAT(made(4), ElementsAre("theorem 4", "leaf", "end"));
+  EXPECT_EQ(made(6).size(), lines.size() + 3);
+  EXPECT_EQ(made(7).front(), "theorem 6");
+}
+
 TEST_F(Certificates, OfAPresolvedInstanceAskForAllJointPaths) {
   EXPECT_THAT(made(kInfiniteCost), ElementsAre("theorem inf", "joint", "end"));
 }
