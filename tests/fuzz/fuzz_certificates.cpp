@@ -147,7 +147,13 @@ class Trial {
     const Certificate made = write_certificate(instance, std::array{part_}, claimed, proof_);
     judge(made, claimed, solution);
     test_mutants(seed);
-    if (part_of_search_ == Part::kCores) test_core_search(instance, truth, seed);
+    if (part_of_search_ != Part::kCores) return;
+    try {
+      test_core_search(instance, truth, seed);
+    } catch (const std::exception& error) {
+      ++threw_;
+      complain(error.what());
+    }
   }
 
   bool is_well() const { return wrong_ == 0; }
