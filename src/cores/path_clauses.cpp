@@ -73,8 +73,7 @@ void PathClauses::add_walk_clauses(PathGraph::Node node) {
 
 Literal PathClauses::within(Time excess) {
   while (std::ssize(within_) <= excess) {
-    within_.push_back(
-        solver_.new_variable(FormulaKind::kWithin, {agent_, std::ssize(within_)}));
+    within_.push_back(solver_.new_variable(FormulaKind::kWithin, {agent_, std::ssize(within_)}));
     if (within_.size() > 1) solver_.add({-within_[within_.size() - 2], within_.back()});
   }
   return within_[excess];
@@ -98,10 +97,10 @@ Literal PathClauses::literal_of(PathGraph::Node node) {
 
 Literal PathClauses::new_node_variable(PathGraph::Node node) {
   const PathGraph::Position at = graph_.position(node);
-  return solver_.new_variable(FormulaKind::kNode,
-                              {agent_, graph_.time(node), graph_.place(node), at.pose,
-                               static_cast<std::int64_t>(at.stops_done), at.stop, at.steps_done,
-                               graph_.arrival(node)});
+  return solver_.new_variable(
+      FormulaKind::kNode,
+      {agent_, graph_.time(node), graph_.place(node), at.pose,
+       static_cast<std::int64_t>(at.stops_done), at.stop, at.steps_done, graph_.arrival(node)});
 }
 
 Literal PathClauses::literal_of(const Presence& presence) {

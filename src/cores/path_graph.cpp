@@ -120,7 +120,8 @@ bool PathGraph::reach(State state, StageId stage, Time time, Time arrival) {
   const Node node = at->second;
   if (is_new) {
     const bool is_final = arrival != kOnTheWay && goals_.is_rest(goals_.stage(stage), state);
-    nodes_.push_back({.state = state, .stage = number, .time = time, .arrival = arrival, .is_final = is_final});
+    nodes_.push_back(
+        {.state = state, .stage = number, .time = time, .arrival = arrival, .is_final = is_final});
     is_queued_.push_back(0);
   }
   if (is_queued_[node] == 0) {

@@ -158,7 +158,8 @@ SatSolver::Result PathModel::solve(std::vector<Literal> assumptions,
   const auto others = std::span(assumptions).subspan(static_cast<std::size_t>(count));
   if (std::ranges::none_of(others, [&](Literal literal) { return solver_.failed(literal); }))
     return result;
-  return solver_.solve(std::span(assumptions).first(static_cast<std::size_t>(count)), max_conflicts);
+  return solver_.solve(std::span(assumptions).first(static_cast<std::size_t>(count)),
+                       max_conflicts);
 }
 
 void PathModel::read_walks() {

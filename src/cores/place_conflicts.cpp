@@ -26,7 +26,8 @@ void PlaceConflicts::add_visit(AgentIndex agent, const Presence& presence, Liter
   }
   OnPlace& place = places_[presence.place];
   for (Resting& resting : place.resting)
-    if (resting.agent != agent) solver_.add({-rests_by(resting, presence.place, presence.time), -literal});
+    if (resting.agent != agent)
+      solver_.add({-rests_by(resting, presence.place, presence.time), -literal});
   place.visits.push_back({agent, presence.time, literal});
 }
 
@@ -40,7 +41,8 @@ void PlaceConflicts::add_rest(AgentIndex agent, const Presence& presence, Litera
     for (Resting& other : place.resting)
       if (other.agent != agent) solver_.add({-ever, -rests_by(other, presence.place, kNever)});
     for (const Visit& visit : place.visits)
-      if (visit.agent != agent) solver_.add({-rests_by(*known, presence.place, visit.time), -visit.literal});
+      if (visit.agent != agent)
+        solver_.add({-rests_by(*known, presence.place, visit.time), -visit.literal});
   }
   solver_.add({-literal, rests_by(*known, presence.place, presence.time)});
 }

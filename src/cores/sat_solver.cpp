@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cores/sat_solver.h"
 
-#include <cadical.hpp>
 #include <algorithm>
+#include <cadical.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -77,7 +77,8 @@ class TraceReader {
     std::ranges::sort(clause_);
     std::uint64_t hash = 0;
     for (const std::int64_t literal : clause_)
-      hash = (hash ^ static_cast<std::uint64_t>(literal)) * 0x9e3779b97f4a7c15ULL, hash ^= hash >> 29;
+      hash = (hash ^ static_cast<std::uint64_t>(literal)) * 0x9e3779b97f4a7c15ULL,
+      hash ^= hash >> 29;
     std::vector<std::int64_t>& same = known_[hash];
     if (step_ == 'a') {
       same.push_back(clauses_++);
@@ -163,7 +164,8 @@ void SatSolver::log(FormulaKind kind, std::span<const std::int64_t> numbers) {
 }
 
 std::int64_t SatSolver::log_sum(std::span<const Literal> inputs) {
-  if (proof_ != nullptr) proof_->formula(FormulaKind::kSum, std::vector<std::int64_t>(inputs.begin(), inputs.end()));
+  if (proof_ != nullptr)
+    proof_->formula(FormulaKind::kSum, std::vector<std::int64_t>(inputs.begin(), inputs.end()));
   return sums_++;
 }
 

@@ -41,10 +41,10 @@ Literal Totalizer::output(std::size_t node, std::size_t count) {
 void Totalizer::extend(std::size_t node) {
   const std::size_t count = nodes_[node].outputs.size() + 1;
   const auto [left, right, first, inputs, outputs] = nodes_[node];
-  const Literal next = solver_.new_variable(
-      FormulaKind::kCount,
-      {number_, static_cast<std::int64_t>(first), static_cast<std::int64_t>(first + inputs),
-       static_cast<std::int64_t>(count)});
+  const Literal next =
+      solver_.new_variable(FormulaKind::kCount, {number_, static_cast<std::int64_t>(first),
+                                                 static_cast<std::int64_t>(first + inputs),
+                                                 static_cast<std::int64_t>(count)});
   for (std::size_t i = 0; i <= std::min(count, nodes_[left].inputs); ++i) {
     const std::size_t j = count - i;
     if (j > nodes_[right].inputs) continue;

@@ -10,8 +10,8 @@
 
 namespace grove::detail {
 
-TraversalClauses::TraversalClauses(SatSolver& solver, AgentIndex agent,
-                                   const Corridors& corridors, const Constraint& c)
+TraversalClauses::TraversalClauses(SatSolver& solver, AgentIndex agent, const Corridors& corridors,
+                                   const Constraint& c)
     : solver_(&solver),
       agent_(agent),
       corridors_(&corridors),

@@ -145,9 +145,10 @@ std::unique_ptr<WorkItem> CoresWork::next() {
 
 CoresWork::Progress CoresWork::run() {
   if (!search_)
-    search_ = std::make_unique<CoreSearch>(
-        context_.problem, context_.stops, techniques_of(context_.options),
-        at_most_a_quarter(kMaxCoresBytes, context_.limits), context_.limits, context_.options.proof);
+    search_ = std::make_unique<CoreSearch>(context_.problem, context_.stops,
+                                           techniques_of(context_.options),
+                                           at_most_a_quarter(kMaxCoresBytes, context_.limits),
+                                           context_.limits, context_.options.proof);
   const std::int64_t before = search_->work();
   over_ = search_->step(context_.bounds.cutoff()) != CoreSearch::Outcome::kWorking;
   Progress progress{search_->lower_bound(), search_->plan(), search_->work() - before};
