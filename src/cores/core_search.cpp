@@ -37,6 +37,10 @@
 // lower_bound(), because no path has an excess beyond `raised`. Every other model violates a clause
 // that is then added; for given levels of excess there are finitely many such clauses.
 //
+// *Proof.* With a proof log, each core is logged as the sum of its inputs, the negations of its
+// literals (docs/proof.md, "formula"). A core of which k literals are false is logged as k cores:
+// the first has all its literals, the others are not L_2, not L_3, ... alone.
+//
 // *Order.* Cores of disjoint sets are found first: a relaxed core adds its soft literals only after
 // the next model. A core is minimised by leaving out one literal at a time, and k is raised while
 // the solver refutes "at most k".

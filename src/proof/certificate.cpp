@@ -185,9 +185,8 @@ class CertificateBuilder {
 
   Certificate write(Cost claimed, const std::filesystem::path& file) {
     const Cost of_trees = forest_.value(claimed);
-    made_.bound =
-        std::min(claimed, std::max({of_trees, written_.pricing_bound, written_.joint_bound,
-                                                written_.of_formula}));
+    made_.bound = std::min(claimed, std::max({of_trees, written_.pricing_bound,
+                                              written_.joint_bound, written_.of_formula}));
     const bool by_trees = of_trees >= made_.bound && !is_evidently_infeasible(claimed);
     LemmaCollector choosing(made_.bound);
     if (by_trees) forest_.visit(made_.bound, choosing);

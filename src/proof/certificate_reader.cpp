@@ -343,16 +343,15 @@ class Reader {
   // Takes a definition. Returns false, and takes nothing, if the line is something else.
   bool take_definition() {
     using enum FormulaKind;
-    static constexpr std::array kNames = {std::pair{"agent", kAgent},   std::pair{"within", kWithin},
-                                          std::pair{"active", kActive}, std::pair{"visit", kVisit},
-                                          std::pair{"last", kLast},     std::pair{"rests", kRests},
-                                          std::pair{"node", kNode},     std::pair{"meets", kMeets},
-                                          std::pair{"inside", kInside}, std::pair{"ends", kEnds},
-                                          std::pair{"count", kCount},   std::pair{"sum", kSum},
-                                          std::pair{"split", kSplit}};
+    static constexpr std::array kNames = {
+        std::pair{"agent", kAgent}, std::pair{"within", kWithin}, std::pair{"active", kActive},
+        std::pair{"visit", kVisit}, std::pair{"last", kLast},     std::pair{"rests", kRests},
+        std::pair{"node", kNode},   std::pair{"meets", kMeets},   std::pair{"inside", kInside},
+        std::pair{"ends", kEnds},   std::pair{"count", kCount},   std::pair{"sum", kSum},
+        std::pair{"split", kSplit}};
     const std::string_view word = words_->substr(0, words_->find(' '));
-    const auto* const found =
-        std::ranges::find(kNames, word, [](const auto& name) { return std::string_view(name.first); });
+    const auto* const found = std::ranges::find(
+        kNames, word, [](const auto& name) { return std::string_view(name.first); });
     if (found == kNames.end()) return false;
     next_word();
     take_meaning(found->second);

@@ -10,10 +10,11 @@
 //   constraints.
 // - *Splits with an unused side.* If the proof below one side does not need the constraints of this
 //   side, it also proves the node. A leaf that uses the costs of agents can need all active
-//   constraints, and so can `joint`, `prices` and `formula`. A leaf that lemmas prove for any costs of agents
-//   (lemma_table.cpp) needs only the constraints of these lemmas, and "later" only those of its
-//   lemma. So a proof with only such leaves needs the union of these constraints, without those
-//   that its own splits add. A side is unused if all needed constraints are active without it.
+//   constraints, and so can `joint`, `prices` and `formula`. A leaf that lemmas prove for any costs
+//   of agents (lemma_table.cpp) needs only the constraints of these lemmas, and "later" only those
+//   of its lemma. So a proof with only such leaves needs the union of these constraints, without
+//   those that its own splits add. A side is unused if all needed constraints are active without
+//   it.
 //   ("rest" adds more than its own constraint: active_constraints.cpp.) If a split or lemma above
 //   imposes the same constraint, the proof then needs it from there, and that split or lemma
 //   remains, because needs are propagated upwards after the removals below.

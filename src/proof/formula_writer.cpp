@@ -128,8 +128,8 @@ class FormulaWriter : public FormulaReader {
     const auto small = [&](std::size_t i) { return static_cast<std::int32_t>(numbers[i]); };
     const auto kind = constraint_kind(static_cast<std::uint8_t>(numbers[5]));
     GROVE_CHECK(kind.has_value(), "a constraint has a kind");
-    return proof_text(
-        AgentConstraint{small(0), {small(1), small(2), small(3), small(4), *kind}}, instance_);
+    return proof_text(AgentConstraint{small(0), {small(1), small(2), small(3), small(4), *kind}},
+                      instance_);
   }
 
   const Instance& instance_;

@@ -34,8 +34,8 @@ class ProofRecords : public ProofLog {
   std::vector<ProofTree> trees;
   Cost pricing_bound = 0;  // bound proven by `prices`
   std::vector<RowMultiplier> priced_rows;
-  Cost joint_bound = 0;    // bound proven by joint search
-  Cost of_formula = 0;  // bound proven by a formula
+  Cost joint_bound = 0;  // bound proven by joint search
+  Cost of_formula = 0;   // bound proven by a formula
 
   void tree(const ProofTree& tree) override;
   void split(const ProofSplit& split) override;

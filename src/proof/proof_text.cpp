@@ -22,7 +22,8 @@ std::string proof_text(const AgentConstraint& constraint, const Instance& instan
   const auto task = [&] { return instance.agent(constraint.agent).stops[c.from]; };
   switch (c.kind) {
     case ConstraintKind::kVertexOrEdge:
-      if (c.is_move()) return text("move", c.from, c.cell, std::max(c.begin, 0), proof_text_until(c.end));
+      if (c.is_move())
+        return text("move", c.from, c.cell, std::max(c.begin, 0), proof_text_until(c.end));
       return text("bar", c.cell, std::max(c.begin, 0), proof_text_until(c.end));
     case ConstraintKind::kNoRestBy:
       return text("norest", c.cell, c.end);

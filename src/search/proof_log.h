@@ -79,9 +79,9 @@ enum class FormulaKind : std::uint8_t {
   kVisit,   // agent, place, time
   kLast,    // agent, place, time
   kRests,   // agent, place, time (kNever: ever)
-  kNode,    // agent, time, place, rank of the pose, stops done, stop executed or -1, its steps done,
-            // time of the last arrival or -1
-  kMeets,   // agent and constraint: cell, from, begin, end, kind
+  kNode,   // agent, time, place, rank of the pose, stops done, stop executed or -1, its steps done,
+           // time of the last arrival or -1
+  kMeets,  // agent and constraint: cell, from, begin, end, kind
   kInside,  // agent, last inner place, exit, time
   kEnds,    // as kInside
   kCount,   // sum, first input, end of the inputs, least number of true inputs

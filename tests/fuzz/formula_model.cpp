@@ -25,8 +25,7 @@ class Meanings {
   Meanings(const Instance& instance, const Plan& plan)
       : world_(instance.world()), corridors_(instance.world()) {
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
-      paths_.push_back(
-          walked_path(instance, agent, plan.agents[static_cast<std::size_t>(agent)]));
+      paths_.push_back(walked_path(instance, agent, plan.agents[static_cast<std::size_t>(agent)]));
       last_.push_back(static_cast<Time>(paths_.back().size()) - 1);
       while (last_.back() > 0 && place(agent, last_.back() - 1) == place(agent, last_.back()))
         --last_.back();
@@ -85,9 +84,9 @@ class Meanings {
 };
 
 bool defines_variable(const std::string& line) {
-  constexpr std::array<std::string_view, 10> kKinds{
-      "within ", "active ", "visit ",  "last ", "rests ",
-      "node ",   "meets ",  "inside ", "ends ", "count "};
+  constexpr std::array<std::string_view, 10> kKinds{"within ", "active ", "visit ", "last ",
+                                                    "rests ",  "node ",   "meets ", "inside ",
+                                                    "ends ",   "count "};
   return std::ranges::any_of(kKinds, [&](auto kind) { return line.starts_with(kind); });
 }
 
@@ -134,7 +133,8 @@ bool has_model(const std::filesystem::path& clauses, std::span<const std::string
   for (const std::string& line : definitions) {
     if (!defines_variable(line)) continue;
     ++variable;
-    if (const auto value = meanings.value(line)) assumptions.push_back(*value ? variable : -variable);
+    if (const auto value = meanings.value(line))
+      assumptions.push_back(*value ? variable : -variable);
   }
   return solver.solve(assumptions, 1'000'000) == SatSolver::Result::kSatisfiable;
 }

@@ -147,7 +147,13 @@ class Trial {
     const Certificate made = write_certificate(instance, std::array{part_}, claimed, proof_);
     judge(made, claimed, solution);
     test_mutants(seed);
-    if (part_of_search_ == Part::kCores) test_core_search(instance, truth, seed);
+    if (part_of_search_ != Part::kCores) return;
+    try {
+      test_core_search(instance, truth, seed);
+    } catch (const std::exception& error) {
+      ++threw_;
+      complain(error.what());
+    }
   }
 
   bool is_well() const { return wrong_ == 0; }
@@ -240,8 +246,8 @@ class Trial {
       verify_mutant(original, seed * 1000 + static_cast<std::uint64_t>(i));
   }
 
-  // The core search by itself, with different cutoffs, so that each bound above the sum of the least
-  // costs is proven by a formula.
+  // The core search by itself, with different cutoffs, so that each bound above the sum of the
+  // least costs is proven by a formula.
   void test_core_search([[maybe_unused]] const Instance& instance,
                         [[maybe_unused]] const oracle::Answer& truth,
                         [[maybe_unused]] std::uint64_t seed) {
@@ -283,8 +289,8 @@ class Trial {
     write_lines(definitions);
     const fs::path clauses = a_.folder / "proofs.cnf";
     fs::remove(clauses);
-    const Verdict verdict = verdict_of(a_, instance_file_, mutant_,
-                                       fmt::format("--clauses '{}'", clauses.string()));
+    const Verdict verdict =
+        verdict_of(a_, instance_file_, mutant_, fmt::format("--clauses '{}'", clauses.string()));
     if (verdict.code != 1)
       complain("a formula without steps is not refused: " + verdict.text);
     else if (!has_model(clauses, definitions, instance, plan))

@@ -127,6 +127,30 @@ class Reader(unittest.TestCase):
             found = checkers.verify(CROSS, " ".join(changed))
             self.assertTrue(found.code in (1, 2) or found.text == "verified: no plan costs less than 5\n", changed)
 
+    def test_changed_formulas_never_verify_another_theorem(self):
+        lines = ["agent 0 0", "agent 1 0", "within 0 0", "within 1 0", "visit 0 3 0", "visit 0 4 1", "last 0 5 2",
+                 "visit 1 1 0", "visit 1 4 1", "last 1 7 2", "sum -1 -2", "core 0"]
+        good = certificate(CROSS, "theorem 5", "formula", *lines, "end")
+        self.assertEqual(checkers.verify(CROSS, good).text, "verified: no plan costs less than 5\n")
+        for length in range(len(good)):
+            self.ends(good[:length])
+        rng = random.Random(4)
+        words = good.split(" ")
+        for _ in range(300):
+            changed = list(words)
+            for _ in range(rng.randint(1, 3)):
+                changed[rng.randrange(len(words))] = rng.choice(["inf", "0", "1", "-1", "4", str(2**30), str(2**64), "x", "-",
+                                                                 "\ncore 0", "\nclause", "-2", "\ndrop 0", "--1"])
+            found = checkers.verify(CROSS, " ".join(changed))
+            self.assertTrue(found.code in (1, 2) or found.text == "verified: no plan costs less than 5\n", changed)
+
+    def test_large_formulas_stay_within_their_limits(self):
+        # All paths of a great excess, and many variables.
+        self.ends(certificate(CROSS, "theorem 6", "formula", "agent 0 100000000", "end"), (1,), "^refused: ",
+                  options=["--time-limit", "1", "--memory-limit", "0.1"], seconds=3)
+        self.ends(certificate(CROSS, "theorem 6", "formula", *["active 0"] * 3000000, "end"), (1,), "^refused: ",
+                  options=["--memory-limit", "0.1"], seconds=5)
+
     def test_huge_numbers_are_refused(self):
         for number in (2**30 - 1, 2**30, 2**31, 2**32 - 1, 2**63, 2**64 - 1, 2**64, 10**100):
             for lines in (["theorem {}", "leaf"], ["theorem {}", "joint"], ["lemma {} 0", "leaf"],
@@ -138,6 +162,13 @@ class Reader(unittest.TestCase):
                           ["theorem 5", "split 0 stop {0} {0} | 0 nostop {0} {0}"],
                           ["theorem 5", "prices", "place 4 {} 1024", "end"],
                           ["theorem 5", "prices", "finish 0 {0} 1 {0} 0", "end"],
+                          *(["theorem 5", "formula", *lines, "end"] for lines in
+                            (["within {} 0"], ["within 0 {}"], ["agent {} 0"], ["visit 0 {} 0"], ["visit 0 0 {}"],
+                             ["rests 0 {0} {0}"], ["node 0 {0} 0 0 0"], ["node 0 0 0 {0} {0}"], ["sum {}"], ["sum -{}"],
+                             ["within 0 0", "sum 1 1", "count 0 0 {} 1"], ["within 0 0", "sum 1 1", "count 0 {0} {0} {0}"],
+                             ["within 0 0", "sum 1 1", "count {} 0 2 1"], ["within 0 0", "clause {}"],
+                             ["within 0 0", "clause -{}"], ["drop {}"], ["core {}"], ["split {0} {0}"],
+                             ["meets 0 bar 4 {0} {0}"], ["inside 0 {0} 1 1"])),
                           ["lemma 5 0 1", "demand 0 bar 4 0 {}", "joint"]):
                 self.ends(certificate(CROSS, *(line.format(number) for line in lines)), (1,), "^refused: ",
                           options=["--time-limit", "1"], seconds=2)

@@ -320,26 +320,56 @@ class Rules(unittest.TestCase):
 
     def test_splits_of_formulas_are_permitted_pairs(self):
         bars = ["meets 0 bar 12 2 2", "meets 1 bar 12 2 2"]
-        begin = [line for line in STRAIGHT if not line.startswith(("sum", "count"))]
-        self.verified(STAR, "theorem 12", "formula", *begin, *bars, "split 19 20", "end")
-        for wrong, split in (("meets 1 bar 12 3 3", "19 20"), ("meets 1 bar 11 2 2", "19 20"),
-                             ("meets 0 bar 12 2 2", "19 20"), ("meets 1 bar 12 2 3", "19 20"),
-                             (bars[1], "19 19"), (bars[1], "19 -20"), (bars[1], "-19 20"), (bars[1], "19 1")):
-            self.refused_formula("may satisfy neither", STAR, 13, *begin, bars[0], wrong, f"split {split}",
-                                 at=len(begin) + 4)
+        self.verified(STAR, "theorem 14", "formula", *STRAIGHT, *bars, "split 20 21", "clause 20 21", *CORES, "end")
+        self.refused_formula("the clause does not follow", STAR, 14, *STRAIGHT, *bars, "clause 20 21",
+                             at=len(STRAIGHT) + 3)
+        for wrong, split in (("meets 1 bar 12 3 3", "20 21"), ("meets 1 bar 11 2 2", "20 21"),
+                             ("meets 0 bar 12 2 2", "20 21"), ("meets 1 bar 12 2 3", "20 21"),
+                             (bars[1], "20 20"), (bars[1], "20 -21"), (bars[1], "-20 21"), (bars[1], "20 1")):
+            self.refused_formula("may satisfy neither", STAR, 13, *STRAIGHT, bars[0], wrong, f"split {split}",
+                                 at=len(STRAIGHT) + 4)
         self.refused_formula("expected a constraint on places", ERRANDS, 11, "meets 0 stop 0 0", at=1)
 
     def test_constraints_in_formulas_exclude_what_violates_them(self):
         # Variable 2: agent 1 takes its straight path.
-        begin = [line for line in STRAIGHT if not line.startswith(("sum", "count"))]
-        first = len(begin) + 1
+        first = len(STRAIGHT) + 1
         for good, wrong in (("bar 12 2 2", "bar 12 3 3"), ("bar 12 0 inf", "bar 12 0 1"),
                             ("move 7 12 2 2", "move 7 12 3 3"), ("move 12 17 3 3", "move 17 12 3 3"),
                             ("norest 22 4", "norest 22 3"), ("rest 22 3", "rest 22 4"), ("rest 21 9", "rest 22 9"),
                             ("bar 22 9 9", "bar 22 9 8")):
-            self.verified(STAR, "theorem 12", "formula", *begin, f"meets 1 {good}", "clause -2 -19", "end")
-            self.refused_formula("the clause does not follow", STAR, 14, *begin, f"meets 1 {wrong}", "clause -2 -19",
-                                 at=first + 1)
+            self.verified(STAR, "theorem 14", "formula", *STRAIGHT, f"meets 1 {good}", "clause -2 -20", *CORES, "end")
+            self.refused_formula("the clause does not follow", STAR, 14, *STRAIGHT, f"meets 1 {wrong}",
+                                 "clause -2 -20", at=first + 1)
+
+    def test_rest_bars_other_agents_in_formulas(self):
+        rest, first = "meets 1 rest 22 4", len(STRAIGHT) + 1
+        for bar in ("0 bar 22 4 inf", "2 bar 22 5 inf"):
+            self.verified(STAR, "theorem 14", "formula", *STRAIGHT, rest, f"meets {bar}", "clause -20 21", *CORES, "end")
+        for bar in ("0 bar 22 3 inf", "0 bar 22 4 9", "0 bar 21 4 inf", "1 bar 22 4 inf"):
+            self.refused_formula("the clause does not follow", STAR, 14, *STRAIGHT, rest, f"meets {bar}",
+                                 "clause -20 21", at=first + 2)
+
+    def test_agents_that_rest_stay(self):
+        first = len(STRAIGHT) + 1
+        for good, wrong in ((("rests 1 22 4", "visit 0 22 4", "clause -2 -21"), ("rests 1 22 3", "visit 0 22 3")),
+                            (("rests 1 22 inf", "rests 0 22 inf", "clause -2 -21"), ("rests 1 22 inf", "rests 0 21 inf")),
+                            (("rests 1 22 6", "visit 2 22 6", "clause -2 -21"), ("rests 1 22 6", "visit 2 22 7"))):
+            self.verified(STAR, "theorem 14", "formula", *STRAIGHT, *good, *CORES, "end")
+            self.refused_formula("the clause does not follow", STAR, 14, *STRAIGHT, *wrong, "clause -2 -21",
+                                 at=first + 2)
+
+    def test_traversals_in_formulas_are_those_of_the_corridor(self):
+        # Agent 0 goes through cells 8 and 9, from 7 at time 1 to 10 at time 4. Variable 1: it costs 5.
+        begin = ["agent 0 0", "within 0 0", "visit 0 6 0", "visit 0 7 1", "visit 0 8 2", "visit 0 9 3", "visit 0 10 4",
+                 "last 0 11 5"]
+        way = ["inside 0 9 10 2", "inside 0 9 10 3", "ends 0 9 10 4"]
+        first = len(begin) + len(way) + 1
+        self.refused_formula("the clause does not follow", HALL, 14, *begin, *way, "meets 0 pass 9 10 4 4",
+                             "clause -1 10", "clause -1 -11", "clause -1 -10", at=first + 3)
+        for old, new in (("inside 0 9 10 2", "inside 0 9 10 1"), ("inside 0 9 10 3", "inside 0 8 7 3"),
+                         ("visit 0 7 1", "visit 0 10 1"), ("ends 0 9 10 4", "ends 0 8 7 4")):
+            wrong = [new if line == old else line for line in [*begin, *way]]
+            self.refused_formula("the clause does not follow", HALL, 14, *wrong, "clause -1 10", at=first)
 
     def test_names_in_formulas_exist(self):
         for wrong, reason in (("within 3 0", "no agent 3"), ("visit 0 25 0", "no place 25"),

@@ -229,6 +229,12 @@ class Trimmed(unittest.TestCase):
         self.expect("theorem 8\nprices\nplace 1 2 0\nedge 1 2 3 7\nfinish 0 1 1 2 0\nend\n",
                     "theorem 8\nprices\nedge 1 2 3 7\nend\n")
 
+    def test_formulas_remain(self):
+        formula = "formula\nagent 0 1\nwithin 0 0\nvisit 0 1 1\nrests 0 2 inf\nsum -1\nclause -1 2\ndrop 0\nclause\n" \
+            "core 0\nend\n"
+        self.expect(f"theorem 8\n{formula}", f"theorem 8\n{formula}")
+        self.expect(f"lemma 9 0 1\njoint\ntheorem 8\n{formula}", f"theorem 8\n{formula}")
+
     def test_deep_certificates_are_trimmed(self):
         deep = 100000
         split = "".join(f"split 0 bar 1 {t} {t} | 1 bar 1 {t} {t}\nleaf\n" for t in range(deep))
