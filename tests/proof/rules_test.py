@@ -389,6 +389,7 @@ class Rules(unittest.TestCase):
         gate = Instance(grid("...", "@.@", "..."), [Agent((1,), 7)])
         begin = ["visit 0 1 0", "visit 0 7 0", "visit 0 4 1", "inside 0 4 7 1", "clause -1 -3 4"]
         self.refused_formula("the clause does not follow", gate, 9, *begin, "clause -2 -3 4", at=6)
+        self.refused_formula("the clause does not follow", gate, 9, *begin[1:4], "clause -1 -2 3", at=4)
 
     def test_certificate_of_another_instance_is_refused(self):
         text = certificate(CROSS, "theorem 4", "leaf")
