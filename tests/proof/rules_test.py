@@ -384,6 +384,13 @@ class Rules(unittest.TestCase):
                               ("node 0 0 2 0 0 work 0 1", "no such stop"), ("node 1 0 3 0 0", "needs no nodes")):
             self.refused_formula(reason, ERRANDS, 11, wrong, at=1)
 
+    def test_traversals_enter_at_the_other_end(self):
+        # Cell 4 is the only inner place of a corridor with the ends 1 and 7.
+        gate = Instance(grid("...", "@.@", "..."), [Agent((1,), 7)])
+        begin = ["visit 0 1 0", "visit 0 7 0", "visit 0 4 1", "inside 0 4 7 1", "clause -1 -3 4"]
+        self.refused_formula("the clause does not follow", gate, 9, *begin, "clause -2 -3 4", at=6)
+        self.refused_formula("the clause does not follow", gate, 9, *begin[1:4], "clause -1 -2 3", at=4)
+
     def test_certificate_of_another_instance_is_refused(self):
         text = certificate(CROSS, "theorem 4", "leaf")
         others = [STAR, Instance(CROSS.world, CROSS.agents, [(0, 0, [0])]),
