@@ -13,6 +13,7 @@
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/group_oracle.h"
 #include "tests/support/fuzz_factor.h"
+#include "tests/support/instances.h"
 
 namespace grove::detail {
 namespace time_expanded_graphs_test {
@@ -70,9 +71,7 @@ class Fuzzer {
   }
 
  private:
-  static Instance made(std::uint64_t seed) {
-    return fuzz::any_instance(seed).build();
-  }
+  static Instance made(std::uint64_t seed) { return fuzz::any_instance(seed).build(); }
   Constraint traversal(Time t) {
     const auto row = corridors_.places(below(corridors_.count()));
     const bool front = below(2) == 0;
@@ -182,6 +181,20 @@ TEST(TimeExpandedGraphs, AreRefusedAboveTheNodeLimit) {
   EXPECT_EQ(graphs.make(goals, Constraints(), 40, 10, Limits(), graph),
             TimeExpandedGraphs::Outcome::kTooLarge);
   EXPECT_EQ(graph.count(), 0u);
+}
+
+TEST(TimeExpandedGraphs, AreRefusedIfTheCostsToGoWouldBeTooLarge) {
+  std::vector<Position> tasks;
+  for (int i = 1; i < 24; ++i) tasks.push_back({i % 5, i / 5});
+  const Instance instance = testing::instance_of({".....", ".....", ".....", ".....", "....."},
+                                                 {{{0, 0}, Position{4, 4}, tasks}});
+  const DistanceFields distances(instance);
+  AgentStops stops(instance, distances, 0);
+  SequenceStages goals(stops, SequenceClass());
+  AgentGraph graph;
+  TimeExpandedGraphs graphs(instance.world());
+  EXPECT_EQ(graphs.make(goals, Constraints(), 80, kPlenty, Limits(), graph),
+            TimeExpandedGraphs::Outcome::kTooLarge);
 }
 
 }  // namespace time_expanded_graphs_test

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "tests/search/group_cases.h"
@@ -43,6 +44,22 @@ TEST(GroupCbs, ExcessNeverExceedsThatOfAnExhaustiveSearch) {
   EXPECT_GT(above, 20);
   EXPECT_GT(interrupted, 5);
   EXPECT_GT(expanded, 5);
+}
+
+// Agent 1 passes the destination of agent 0 at time 80. If agent 0 rests there only later, its
+// tasks can be done in too many orders.
+TEST(GroupCbs, EndsIfTheCostsToGoWouldBeTooLarge) {
+  std::vector<std::string> rows(5, std::string(5, '.') + std::string(80, '@'));
+  rows[2] = std::string(85, '.');
+  std::vector<Position> tasks;
+  for (int i = 1; i < 24; ++i) tasks.push_back({i % 5, i / 5});
+  testing::RootFixture s(rows, {{{0, 0}, Position{5, 2}, tasks}, {{84, 2}, Position{0, 0}}});
+  GroupCbs search(s.problem, s.options, s.planner, s.memory);
+  ExcessBound known;
+  EXPECT_TRUE(search.solve(s.root, s.all, 1000, kEnough, s.limits, known));
+  EXPECT_FALSE(known.exact);
+  EXPECT_GT(known.expansions, 0);
+  EXPECT_LE(known.excess, 80);
 }
 
 }  // namespace group_cbs_test
