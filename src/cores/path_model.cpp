@@ -23,8 +23,8 @@
 // satisfies(c) true, and the outputs of totalizers over its within(e) true, which no assumption
 // denies. A clause that requires within(e) or satisfies(RestBy) of the agent could be violated: the
 // first are only those of limit(), whose agents are always needed, and a split has RestBy only
-// together with NoRestBy of the same agent, which is true. (A checker of a proof does not know this
-// claim. With a proof, a refutation that uses such an assumption is therefore repeated without it.)
+// together with NoRestBy of the same agent, which is true. (Certificates do not contain this
+// argument. With a proof, a refutation that uses such an assumption is repeated without it.)
 #include "cores/path_model.h"
 
 #include <algorithm>

@@ -76,9 +76,10 @@ class TraceReader {
   void end_step() {
     std::ranges::sort(clause_);
     std::uint64_t hash = 0;
-    for (const std::int64_t literal : clause_)
-      hash = (hash ^ static_cast<std::uint64_t>(literal)) * 0x9e3779b97f4a7c15ULL,
+    for (const std::int64_t literal : clause_) {
+      hash = (hash ^ static_cast<std::uint64_t>(literal)) * 0x9e3779b97f4a7c15ULL;
       hash ^= hash >> 29;
+    }
     std::vector<std::int64_t>& same = known_[hash];
     if (step_ == 'a') {
       same.push_back(clauses_++);

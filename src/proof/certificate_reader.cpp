@@ -14,6 +14,7 @@
 #include "model/parse_number.h"
 #include "proof/certificate.h"
 #include "proof/line_stream.h"
+#include "proof/proof_text.h"
 #include "search/proof_log.h"
 
 namespace grove::detail {
@@ -342,22 +343,16 @@ class Reader {
 
   // Takes a definition. Returns false, and takes nothing, if the line is something else.
   bool take_definition() {
-    using enum FormulaKind;
-    static constexpr std::array kNames = {
-        std::pair{"agent", kAgent}, std::pair{"within", kWithin}, std::pair{"active", kActive},
-        std::pair{"visit", kVisit}, std::pair{"last", kLast},     std::pair{"rests", kRests},
-        std::pair{"node", kNode},   std::pair{"meets", kMeets},   std::pair{"inside", kInside},
-        std::pair{"ends", kEnds},   std::pair{"count", kCount},   std::pair{"sum", kSum},
-        std::pair{"split", kSplit}};
     const std::string_view word = words_->substr(0, words_->find(' '));
-    const auto* const found = std::ranges::find(
-        kNames, word, [](const auto& name) { return std::string_view(name.first); });
-    if (found == kNames.end()) return false;
+    const auto* const found = std::ranges::find(kFormulaWords, word);
+    if (word.empty() || found == kFormulaWords.end()) return false;
+    const auto kind = static_cast<FormulaKind>(found - kFormulaWords.begin());
+    if (is_step(kind)) return false;
     next_word();
-    take_meaning(found->second);
+    take_meaning(kind);
     end_line();
-    if (found->second >= kWithin && found->second <= kCount) ++variables_;
-    if (found->second == kSum) ++sums_;
+    if (kind >= FormulaKind::kWithin && kind <= FormulaKind::kCount) ++variables_;
+    if (kind == FormulaKind::kSum) ++sums_;
     visitor_.formula_line();
     return true;
   }

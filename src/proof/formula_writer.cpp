@@ -67,24 +67,7 @@ class FormulaWriter : public FormulaReader {
 
  private:
   std::string text(FormulaKind kind, Numbers numbers) const {
-    const auto plain = [&](std::string_view name) {
-      std::string line(name);
-      for (const std::int64_t number : numbers) line += fmt::format(" {}", number);
-      return line;
-    };
     switch (kind) {
-      case FormulaKind::kBegin:
-        break;
-      case FormulaKind::kAgent:
-        return plain("agent");
-      case FormulaKind::kWithin:
-        return plain("within");
-      case FormulaKind::kActive:
-        return plain("active");
-      case FormulaKind::kVisit:
-        return plain("visit");
-      case FormulaKind::kLast:
-        return plain("last");
       case FormulaKind::kRests:
         return fmt::format("rests {} {} {}", numbers[0], numbers[1],
                            proof_text_until(static_cast<Time>(numbers[2])));
@@ -92,24 +75,12 @@ class FormulaWriter : public FormulaReader {
         return node_text(numbers);
       case FormulaKind::kMeets:
         return "meets " + constraint_text(numbers);
-      case FormulaKind::kInside:
-        return plain("inside");
-      case FormulaKind::kEnds:
-        return plain("ends");
-      case FormulaKind::kCount:
-        return plain("count");
-      case FormulaKind::kSum:
-        return plain("sum");
-      case FormulaKind::kSplit:
-        return plain("split");
-      case FormulaKind::kClause:
-        return plain("clause");
-      case FormulaKind::kDrop:
-        return plain("drop");
-      case FormulaKind::kCore:
-        return plain("core");
+      default: {
+        std::string line(formula_word(kind));
+        for (const std::int64_t number : numbers) line += fmt::format(" {}", number);
+        return line;
+      }
     }
-    GROVE_CHECK(false, "each line of a formula has a text");
   }
 
   std::string node_text(Numbers numbers) const {

@@ -1,13 +1,25 @@
 // SPDX-License-Identifier: MIT
-// Text of constraints in certificates (docs/proof.md, section 2).
+// Text of constraints and formulas in certificates (docs/proof.md, sections 2 and 4.1).
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 
 #include "model/instance.h"
 #include "planning/constraint.h"
+#include "search/proof_log.h"
 
 namespace grove::detail {
+
+// The first words of the lines of a formula, by FormulaKind; kBegin has no line.
+inline constexpr std::array<std::string_view, static_cast<std::size_t>(kLastFormulaKind) + 1>
+    kFormulaWords = {"",      "agent", "within", "active", "visit", "last",
+                     "rests", "node",  "meets",  "inside", "ends",  "count",
+                     "sum",   "split", "clause", "drop",   "core"};
+inline std::string_view formula_word(FormulaKind kind) {
+  return kFormulaWords[static_cast<std::size_t>(kind)];
+}
 
 // Returns a time, or "inf" for kNever.
 std::string proof_text_until(Time end);
