@@ -136,11 +136,14 @@ void CoreSearch::raise_by(const GroupExcess& excess) {
 
 CoreSearch::Outcome CoreSearch::solve() {
   if (!new_statements_.empty() || !statements_.empty()) return use_statement();
+  std::int64_t conflicts = 0;
   switch (solve(active_, kConflictsPerStep)) {
     case SatSolver::Result::kUnknown:
       return stopped_or(Outcome::kWorking);
     case SatSolver::Result::kSatisfiable:
-      if (add_conflicts() > 0) return Outcome::kWorking;
+      conflicts = add_conflicts();
+      model_.prefer_paths();  // the next model has most of them
+      if (conflicts > 0) return Outcome::kWorking;
       if (!deferred_.empty()) {
         active_.insert(active_.end(), deferred_.begin(), deferred_.end());
         deferred_.clear();

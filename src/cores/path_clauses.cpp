@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // *Literals.* One for each node of the graph, "the walk contains the node"; for each presence of
-// the agent; for each limit on its cost; and for each constraint. All clauses are implications:
+// the agent; for each limit on its cost; and for each constraint. A presence that belongs to only
+// one node has the literal of this node, which halves the number of variables of agents with tasks.
+// When a second node is found, the presence gets a variable. Its clauses with the first literal
+// remain; they hold, because the node implies the presence, and presences occur only negated. All
+// clauses are implications:
 //
 //   node and within(e)         -> one of its successors with excess <= e   (e >= its excess)
 //   node                       -> one of its successors, once the graph has all of them
@@ -26,6 +30,7 @@
 #include "cores/path_clauses.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "model/assert.h"
 
@@ -95,15 +100,10 @@ Literal PathClauses::literal_of(PathGraph::Node node) {
   Literal& known = nodes_[node];
   if (known != 0) return known;
   const Time arrival = graph_.arrival(node);
-  const bool is_last = arrival != PathGraph::kOnTheWay;
-  const Presence presence{graph_.place(node), graph_.time(node), is_last};
-  if (is_node_presence_) {
-    known = literal_of(presence);
-  } else {
-    known = new_node_variable(node);
-    if (!is_last || arrival == graph_.time(node)) solver_.add({-known, literal_of(presence)});
-  }
+  const Presence presence{graph_.place(node), graph_.time(node), arrival != PathGraph::kOnTheWay};
+  known = is_node_presence_ ? new_presence_variable(presence) : new_node_variable(node);
   solver_.add({-known, active_});
+  if (!presence.is_last || arrival == presence.time) add_to_presence(known, presence);
   return known;
 }
 
@@ -115,19 +115,34 @@ Literal PathClauses::new_node_variable(PathGraph::Node node) {
        static_cast<std::int64_t>(at.stops_done), at.stop, at.steps_done, graph_.arrival(node)});
 }
 
-Literal PathClauses::literal_of(const Presence& presence) {
-  if (const Literal known = presences_.find(presence)) return known;
-  const Literal literal =
-      solver_.new_variable(presence.is_last ? FormulaKind::kLast : FormulaKind::kVisit,
-                           {agent_, presence.place, presence.time});
-  presences_.insert(presence, literal);
+Literal PathClauses::new_presence_variable(const Presence& presence) {
+  return solver_.new_variable(presence.is_last ? FormulaKind::kLast : FormulaKind::kVisit,
+                              {agent_, presence.place, presence.time});
+}
+
+void PathClauses::add_to_presence(Literal node, const Presence& presence) {
+  Literal literal = presences_.find(presence);
+  if (literal == 0) {
+    of_one_node_.insert(node);
+    set_presence(presence, node);
+    return;
+  }
+  if (of_one_node_.erase(literal) > 0) {
+    const Literal first = std::exchange(literal, new_presence_variable(presence));
+    solver_.add({-first, literal});
+    set_presence(presence, literal);
+  }
+  solver_.add({-node, literal});
+}
+
+void PathClauses::set_presence(const Presence& presence, Literal literal) {
+  presences_.set(presence, literal);
   conflicts_.add(agent_, presence, literal);
   for (TraversalClauses& traversals : traversals_) traversals.add(presence, literal, presences_);
   if (const auto on = constraints_on_.find(presence.place); on != constraints_on_.end())
     for (const std::size_t index : on->second) restrict_presence(constraints_[index], presence);
   if (presence.is_last)
     for (const std::size_t index : rest_bys_) restrict_presence(constraints_[index], presence);
-  return literal;
 }
 
 Literal PathClauses::satisfies(const Constraint& constraint) {
@@ -178,7 +193,7 @@ TraversalClauses& PathClauses::traversals(const Constraint& constraint) {
   TraversalClauses& made = traversals_.emplace_back(solver_, agent_, corridors_, constraint);
   PresenceLiterals added;
   for (const auto& [presence, literal] : presences_.all()) {
-    added.insert(presence, literal);
+    added.set(presence, literal);
     made.add(presence, literal, added);
   }
   return made;
@@ -201,8 +216,10 @@ std::optional<std::vector<PathGraph::Node>> PathClauses::walk() const {
 }
 
 void PathClauses::prefer(const std::vector<PathGraph::Node>& walk) {
+  for (const Literal literal : std::exchange(preferred_, {})) solver_.end_preference(literal);
   for (const PathGraph::Node node : walk)
-    if (nodes_[node] != 0) solver_.prefer(nodes_[node]);
+    if (nodes_[node] != 0) preferred_.push_back(nodes_[node]);
+  for (const Literal literal : preferred_) solver_.prefer(literal);
 }
 
 }  // namespace grove::detail

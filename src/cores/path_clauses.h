@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "cores/path_graph.h"
@@ -45,7 +46,7 @@ class PathClauses {
   // A walk of the model that the solver has found; nullopt if the model lets the agent cost more
   // than the clauses cover.
   std::optional<std::vector<PathGraph::Node>> walk() const;
-  // Decisions of the solver try this walk first.
+  // Decisions of the solver try this walk first, instead of the walk of the last call.
   void prefer(const std::vector<PathGraph::Node>& walk);
 
  private:
@@ -56,9 +57,11 @@ class PathClauses {
   using Constraints = std::vector<std::size_t>;  // indices in constraints_
 
   Literal literal_of(PathGraph::Node node);
-  Literal literal_of(const Presence& presence);
   void start_level();
   Literal new_node_variable(PathGraph::Node node);
+  Literal new_presence_variable(const Presence& presence);
+  void add_to_presence(Literal node, const Presence& presence);
+  void set_presence(const Presence& presence, Literal literal);
   void add_walk_clauses(PathGraph::Node node);
   void restrict_presence(const ConstraintLiteral& by, const Presence& presence);
   void restrict_move(const ConstraintLiteral& by, const Presence& presence);
@@ -77,6 +80,8 @@ class PathClauses {
   std::vector<std::uint8_t> has_all_successors_;  // by node: in a clause for all levels
   std::vector<Literal> within_;                   // by excess
   PresenceLiterals presences_;
+  std::unordered_set<Literal> of_one_node_;  // literals of nodes that are those of presences
+  std::vector<Literal> preferred_;
   std::vector<ConstraintLiteral> constraints_;
   std::unordered_map<Place, Constraints> constraints_on_;  // by place that they mention
   Constraints rest_bys_;

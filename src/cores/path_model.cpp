@@ -205,6 +205,11 @@ std::int64_t PathModel::add_conflicts() {
   return std::ssize(conflicts);
 }
 
+void PathModel::prefer_paths() {
+  for (const Agent& agent : agents_)
+    if (agent.clauses) agent.clauses->prefer(agent.walk);
+}
+
 void PathModel::add_split(const Conflict& conflict, const Split& split) {
   std::vector<Literal> clause;
   std::vector<std::int64_t> sides;

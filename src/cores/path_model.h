@@ -67,6 +67,8 @@ class PathModel {
   // After kSatisfiable: reads the paths of the model. Adds clauses for their conflicts and returns
   // the number of conflicts.
   std::int64_t add_conflicts();
+  // Decisions of the solver try the paths of the model that was read last first.
+  void prefer_paths();
   // True if the model that was read last has a path for each agent.
   bool has_all_paths() const;
   // The plan of these paths. Requires has_all_paths(), and that they have no conflicts.

@@ -18,11 +18,15 @@ void PlaceConflicts::add(AgentIndex agent, const Presence& presence, Literal lit
 }
 
 void PlaceConflicts::add_visit(AgentIndex agent, const Presence& presence, Literal literal) {
-  Visitors& others = visitors_[presence.key()];
-  if (others.size() < kMaxAgents) {
-    for (const auto& [other, of_other] : others)
+  Visitors& visitors = visitors_[presence.key()];
+  const auto own = std::ranges::find(visitors, agent, &Visitors::value_type::first);
+  if (own != visitors.end() || visitors.size() < kMaxAgents) {
+    for (const auto& [other, of_other] : visitors)
       if (other != agent) solver_.add({-literal, -of_other});
-    others.emplace_back(agent, literal);
+    if (own != visitors.end())
+      own->second = literal;
+    else
+      visitors.emplace_back(agent, literal);
   }
   OnPlace& place = places_[presence.place];
   for (Resting& resting : place.resting)

@@ -23,7 +23,7 @@ class PlaceConflicts {
   // `solver` must outlive this object.
   explicit PlaceConflicts(SatSolver& solver) : solver_(solver) {}
 
-  // `presence` has a new literal of `agent`.
+  // `presence` of `agent` has a new literal, perhaps in place of another one.
   void add(AgentIndex agent, const Presence& presence, Literal literal);
 
  private:

@@ -2,6 +2,7 @@
 // Literals for the presence of an agent on places.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <unordered_map>
 #include <utility>
@@ -31,14 +32,18 @@ class PresenceLiterals {
  public:
   // Returns 0 if the presence has no literal.
   Literal find(const Presence& presence) const {
-    const auto at = literals_.find(presence.key());
-    return at == literals_.end() ? 0 : at->second;
+    const auto at = numbers_.find(presence.key());
+    return at == numbers_.end() ? 0 : list_[at->second].second;
   }
-  void insert(const Presence& presence, Literal literal) {
-    literals_.emplace(presence.key(), literal);
-    list_.emplace_back(presence, literal);
+  // Replaces the literal that the presence has, if any.
+  void set(const Presence& presence, Literal literal) {
+    const auto [at, is_new] = numbers_.try_emplace(presence.key(), list_.size());
+    if (is_new)
+      list_.emplace_back(presence, literal);
+    else
+      list_[at->second].second = literal;
   }
-  // In order of insertion.
+  // In order of their first literals.
   const std::vector<std::pair<Presence, Literal>>& all() const { return list_; }
   // Calls visit(literal) for each literal of an arrival on `place` at `time`, for good or not.
   template <class Visit>
@@ -48,7 +53,7 @@ class PresenceLiterals {
   }
 
  private:
-  std::unordered_map<std::uint64_t, Literal> literals_;
+  std::unordered_map<std::uint64_t, std::size_t> numbers_;  // in list_, by Presence::key()
   std::vector<std::pair<Presence, Literal>> list_;
 };
 

@@ -124,6 +124,11 @@ class SatSolver::Solver {
     // variables are false by default. (Fourteen instances: 0.84 of the time.)
     solver.set("inprocessing", 0);
     solver.set("phase", 0);
+    // A restart, and a jump over many levels, repeats most of the propagation: formulas have
+    // hundreds of thousands of variables, and most conflicts are local. (Four instances with 100
+    // agents and 200 or 300 tasks: 0.6 of the time.)
+    solver.set("restartint", 50);
+    solver.set("chronolevelim", 20'000);
     if (proof != nullptr) {
       reader.emplace(*proof);
       trace = open_trace(*reader);
@@ -207,6 +212,10 @@ bool SatSolver::failed(Literal literal) const {
 
 void SatSolver::prefer(Literal literal) {
   solver_->solver.phase(literal);
+}
+
+void SatSolver::end_preference(Literal literal) {
+  solver_->solver.unphase(literal);
 }
 
 std::int64_t SatSolver::conflicts() const {

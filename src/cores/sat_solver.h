@@ -41,6 +41,7 @@ class SatSolver {
   bool failed(Literal literal) const;
   // Decisions on the variable of `literal` try this value first.
   void prefer(Literal literal);
+  void end_preference(Literal literal);
 
   // Logs a line of the proof after all clauses derived so far. Does nothing without a proof.
   void log(FormulaKind kind, std::span<const std::int64_t> numbers);

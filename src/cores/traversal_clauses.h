@@ -23,7 +23,8 @@ class TraversalClauses {
                    const Constraint& c);
 
   bool is_about(const Constraint& c) const { return c.cell == exit_ && c.from == last_inner_; }
-  // Adds the clauses of one more presence. `presences` holds it and the presences added before.
+  // Adds the clauses of one more presence, or of its new literal. `presences` holds it and the
+  // presences added before.
   void add(const Presence& presence, Literal literal, const PresenceLiterals& presences);
   // Makes `unless` false if a traversal ends at a time in [begin, end]. Covers presences that are
   // added later.

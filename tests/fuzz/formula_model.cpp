@@ -39,6 +39,7 @@ class Meanings {
     AgentIndex agent = 0;
     words >> kind >> agent;
     if (kind == "meets") return satisfies(world_, paths_.at(agent), constraint(words), corridors_);
+    if (kind == "node") return node(agent, words);
     if (kind != "visit" && kind != "last" && kind != "rests") return std::nullopt;
     Place place = 0;
     words >> place;
@@ -52,6 +53,20 @@ class Meanings {
  private:
   Place place(AgentIndex agent, Time time) const {
     return world_.place(paths_.at(agent).at(static_cast<std::size_t>(time)));
+  }
+
+  // False if the agent is elsewhere at this time, or makes its last arrival at another time.
+  std::optional<bool> node(AgentIndex agent, std::istringstream& words) const {
+    Time time = 0;
+    Place place = 0;
+    words >> time >> place;
+    std::optional<Time> since;
+    for (std::string word; words >> word;)
+      if (word == "since") words >> since.emplace();
+    const Time last = last_.at(agent);
+    const bool is_arrival_right = since ? *since == last : time < last;
+    if (!is_arrival_right || this->place(agent, std::min(time, last)) != place) return false;
+    return std::nullopt;
   }
 
   static Time until(std::istringstream& words) {

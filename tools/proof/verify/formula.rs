@@ -19,8 +19,32 @@ type At = (u32, u32);
 /// A node of a graph of paths. `spot.done` is 0, and `done` the set of stops done.
 struct NamedNode {
     time: u32,
+    place: u32,
     spot: Spot,
     done: u64,
+}
+
+/// Variables that state the presence of an agent: one of their own, or those of nodes.
+#[derive(Default)]
+struct Presences {
+    own: HashMap<At, Variable>,
+    of_nodes: HashMap<At, Vec<Variable>>,
+}
+
+impl Presences {
+    /// Lets the variable of a node stand for its presence, unless the presence has its own.
+    fn add_node(&mut self, at: At, variable: Variable) {
+        if !self.own.contains_key(&at) { self.of_nodes.entry(at).or_default().push(variable); }
+    }
+
+    fn at(&self, at: At) -> impl Iterator<Item = Variable> + '_ {
+        self.own.get(&at).into_iter().chain(self.of_nodes.get(&at).into_iter().flatten()).copied()
+    }
+
+    fn all(&self) -> impl Iterator<Item = (At, Variable)> + '_ {
+        let of_nodes = self.of_nodes.iter().flat_map(|(&at, variables)| variables.iter().map(move |&variable| (at, variable)));
+        self.own.iter().map(|(&at, &variable)| (at, variable)).chain(of_nodes)
+    }
 }
 
 /// The variables of one agent.
@@ -31,9 +55,9 @@ struct Agent {
     within: BTreeMap<u32, Variable>,
     active: Option<Variable>,
     /// It is on this place at this time, and leaves the place later.
-    visits: HashMap<At, Variable>,
+    visits: Presences,
     /// It makes its last arrival.
-    lasts: HashMap<At, Variable>,
+    lasts: Presences,
     /// It rests on this place at this time.
     rests: BTreeMap<At, Variable>,
     nodes: Vec<(NamedNode, Variable)>,
@@ -46,12 +70,20 @@ struct Agent {
 impl Agent {
     /// Returns the arrivals on a place at a time, for good or not.
     fn arrivals(&self, at: At) -> impl Iterator<Item = Variable> + '_ {
-        [&self.visits, &self.lasts].into_iter().filter_map(move |map| map.get(&at).copied())
+        self.visits.at(at).chain(self.lasts.at(at))
     }
 
     /// Returns all arrivals and visits.
     fn presences(&self) -> impl Iterator<Item = (At, Variable)> + '_ {
-        self.visits.iter().chain(&self.lasts).map(|(&at, &variable)| (at, variable))
+        self.visits.all().chain(self.lasts.all())
+    }
+
+    /// A node without a last arrival is a visit; the node of a last arrival is one.
+    fn add_nodes_to_presences(&mut self) {
+        for (NamedNode { time, place, spot, .. }, variable) in &self.nodes {
+            if spot.since == NEVER { self.visits.add_node((*place, *time), *variable); }
+            if spot.since == *time { self.lasts.add_node((*place, *time), *variable); }
+        }
     }
 
     /// Returns `within` with the greatest excess from `low` to `high`.
@@ -123,8 +155,8 @@ impl Formula {
                 let time = if name == "rests" { tokens.or_inf()?.unwrap_or(NEVER) } else { tokens.number()? };
                 let (variable, of) = (self.variable()?, &mut self.agents[agent]);
                 let old = match name {
-                    "visit" => of.visits.insert((place, time), variable),
-                    "last" => of.lasts.insert((place, time), variable),
+                    "visit" => of.visits.own.insert((place, time), variable),
+                    "last" => of.lasts.own.insert((place, time), variable),
                     _ => of.rests.insert((place, time), variable),
                 };
                 ensure(old.is_none(), "this variable exists")?;
@@ -186,7 +218,7 @@ impl Formula {
         if tokens.take("since") { spot.since = tokens.number()?; }
         tokens.end()?;
         let variable = self.variable()?;
-        self.agents[agent as usize].nodes.push((NamedNode { time, spot, done }, variable));
+        self.agents[agent as usize].nodes.push((NamedNode { time, place, spot, done }, variable));
         Ok(())
     }
 
@@ -200,6 +232,7 @@ impl Formula {
     /// number (None: no limit). `permitted`: whether every plan satisfies one of two constraints.
     pub fn close(&mut self, excess: Option<u64>, chains: &Chains, permitted: impl Fn(&Constraint, &Constraint) -> bool) -> Result<(), Fault> {
         self.clauses = Clauses::new(self.variables as usize);
+        self.agents.iter_mut().for_each(Agent::add_nodes_to_presences);
         self.exclude_presences();
         for agent in 0..self.agents.len() {
             self.add_levels(agent, excess);
@@ -249,7 +282,7 @@ impl Formula {
             if let Some(before) = before.filter(|before| before.0.0 == at.0) { self.clauses.add(&[no(before.1), yes(variable)]); }
             before = Some((at, variable));
         }
-        for (&at, &variable) in lasts {
+        for (at, variable) in lasts.all() {
             let after = rests.range(at..=(at.0, NEVER)).next();
             if let Some((_, &rests)) = after { self.clauses.add(&[no(variable), yes(rests)]); }
         }
@@ -260,10 +293,10 @@ impl Formula {
         let agent = &self.agents[number];
         let mut on: HashMap<u32, Vec<(u32, bool, Variable)>> = HashMap::new();
         for (is_last, map) in [(false, &agent.visits), (true, &agent.lasts)] {
-            for (&(place, time), &variable) in map { on.entry(place).or_default().push((time, is_last, variable)); }
+            for ((place, time), variable) in map.all() { on.entry(place).or_default().push((time, is_last, variable)); }
         }
         on.values_mut().for_each(|list| list.sort_unstable());
-        let mut lasts: Vec<(At, Variable)> = agent.lasts.iter().map(|(&at, &variable)| (at, variable)).collect();
+        let mut lasts: Vec<(At, Variable)> = agent.lasts.all().collect();
         lasts.sort_unstable();
         let none = Vec::new();
         for &(Constraint { kind, p, q, s, e, .. }, meets) in &agent.meets {
@@ -303,18 +336,18 @@ impl Formula {
             let (chain, side, way) = chains.exit(inner, exit).expect("tested by define()");
             let (entry, first) = way.entry(side);
             let inside = |time: u32| agent.inside.get(&(inner, exit, time)).copied();
-            let before = |place: u32, time: u32| time.checked_sub(1).and_then(|time| agent.visits.get(&(place, time))).copied();
+            let before = |place: u32, time: u32| time.checked_sub(1).into_iter().flat_map(move |time| agent.visits.at((place, time)));
             for &((place, time), variable) in &presences {
                 let (was, is) = (time.checked_sub(1).and_then(inside), inside(time));
                 if let (true, Some(was), Some(is)) = (chains.contains(chain, place), was, is) {
                     self.clauses.add(&[no(was), no(variable), yes(is)]);
                 }
-                if let (true, Some(from), Some(is)) = (place == first, before(entry, time), is) {
-                    self.clauses.add(&[no(from), no(variable), yes(is)]);
+                if let (true, Some(is)) = (place == first, is) {
+                    for from in before(entry, time) { self.clauses.add(&[no(from), no(variable), yes(is)]); }
                 }
                 let ends = agent.ends.get(&(inner, exit, time)).copied();
-                if let (true, Some(from), Some(was), Some(ends)) = (place == exit, before(inner, time), was, ends) {
-                    self.clauses.add(&[no(from), no(variable), no(was), yes(ends)]);
+                if let (true, Some(was), Some(ends)) = (place == exit, was, ends) {
+                    for from in before(inner, time) { self.clauses.add(&[no(from), no(variable), no(was), yes(ends)]); }
                 }
             }
         }
@@ -359,13 +392,13 @@ impl Formula {
         let mut of: Vec<Option<Variable>> = vec![None; paths.nodes.len()];
         let mut stray = Vec::new();
         let spot_of = |&(place, time): &At, since: u32| (time, model.poses.numbered(place, 0), since);
-        let visits = agent.visits.iter().map(|(at, &variable)| (spot_of(at, NEVER), variable));
-        let lasts = agent.lasts.iter().map(|(at, &variable)| (spot_of(at, at.1), variable));
+        let visits = agent.visits.own.iter().map(|(at, &variable)| (spot_of(at, NEVER), variable));
+        let lasts = agent.lasts.own.iter().map(|(at, &variable)| (spot_of(at, at.1), variable));
         for ((time, pose, since), variable) in visits.chain(lasts).filter(|_| plain) {
             let spot = pose.and_then(|pose| paths.plain(pose, since));
             match spot.and_then(|spot| paths.find(time, spot)) { Some(node) => of[node as usize] = Some(variable), None => stray.push(variable) }
         }
-        for &(NamedNode { time, spot, done }, variable) in &agent.nodes {
+        for &(NamedNode { time, spot, done, .. }, variable) in &agent.nodes {
             let spot = Spot { done: model.number(done), ..spot };
             match paths.find(time, spot) {
                 Some(node) => of[node as usize] = Some(variable),
@@ -389,7 +422,8 @@ impl Formula {
             let variable = match variable { Some(variable) if node.least < NEVER => *variable, _ => continue };
             if !node.ends { one_of(clauses, agent, &[no(variable)], &options(paths.next(node)), (cost, excess), node.complete); }
             let at = |node: &Node| (model.poses.place(node.spot.pose), node.time);
-            let presence = if node.spot.since == NEVER { agent.visits.get(&at(node)) } else { agent.lasts.get(&at(node)) };
+            let presences = if node.spot.since == NEVER { &agent.visits } else { &agent.lasts };
+            let presence = presences.own.get(&at(node));
             let enters = node.spot.since == NEVER || node.spot.since == node.time;
             if let Some(&presence) = presence.filter(|_| enters && !plain) { clauses.add(&[no(variable), yes(presence)]); }
         }
