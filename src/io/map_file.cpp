@@ -182,4 +182,17 @@ void write_map(const std::filesystem::path& path, const Grid& grid) {
   write_file_atomically(path, text);
 }
 
+void write_bordered_csv(const std::filesystem::path& path, const Grid& grid) {
+  std::string text = fmt::format("{},{}\n", grid.height() + 2, grid.width() + 2);
+  for (int y = -1; y <= grid.height(); ++y) {
+    for (int x = -1; x <= grid.width(); ++x) {
+      const bool is_inside = x >= 0 && x < grid.width() && y >= 0 && y < grid.height();
+      const bool passable = is_inside && grid.passable(grid.cell({x, y}));
+      text += passable ? '0' : '1';
+      text += x == grid.width() ? '\n' : ',';
+    }
+  }
+  write_file_atomically(path, text);
+}
+
 }  // namespace grove::detail

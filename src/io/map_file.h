@@ -26,4 +26,9 @@ Grid read_map(const std::filesystem::path& path, std::vector<std::string>* warni
 // be written.
 void write_map(const std::filesystem::path& path, const Grid& grid);
 
+// Writes `grid` with a border of blocked cells, atomically: a line with the numbers of rows and
+// columns, then the rows, with 1 for a blocked cell and 0 for a passable one. Commas separate all
+// numbers. Throws InputError if the file cannot be written.
+void write_bordered_csv(const std::filesystem::path& path, const Grid& grid);
+
 }  // namespace grove::detail

@@ -109,7 +109,7 @@ Paths read_path_lists(const std::filesystem::path& path, const Instance& instanc
     line.take_if(" ");
     while (!line.at_end()) {
       paths[agent].push_back(line.take_cell(instance.grid(), true));
-      if (!line.at_end()) line.take("->");
+      if (!line.at_end() && !line.take_if(" ")) line.take("->");
     }
   }
   return paths;

@@ -22,7 +22,8 @@ struct NamedInput {
   std::string_view name;
   SolverInput input;
 };
-constexpr std::array<NamedInput, 5> kInputs{{{"movingai", SolverInput::kMovingAi},
+constexpr std::array<NamedInput, 6> kInputs{{{"movingai", SolverInput::kMovingAi},
+                                             {"bordered-csv", SolverInput::kBorderedCsv},
                                              {"grove", SolverInput::kGrove},
                                              {"libmrp", SolverInput::kLibmrp},
                                              {"potential-goals", SolverInput::kPotentialGoals},
@@ -195,7 +196,7 @@ std::string input_mistake(SolverInput input, const std::vector<std::string>& com
   const bool has_map = names(command, "map") || names(command, "scenario");
   const bool has_instance = names(command, "instance");
   if (has_map && has_instance) return "expected {instance}, or {map} and {scenario}, and not both";
-  if (input == SolverInput::kMovingAi)
+  if (input == SolverInput::kMovingAi || input == SolverInput::kBorderedCsv)
     return names(command, "map") && names(command, "scenario") ? ""
                                                                : "expected {map} and {scenario}";
   return has_instance ? "" : "expected {instance}";

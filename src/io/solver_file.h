@@ -15,6 +15,7 @@ namespace grove::detail {
 // The format in which a solver reads an instance, and the placeholders for it in the command.
 enum class SolverInput : std::uint8_t {
   kMovingAi,        // {map}, {scenario}, {agents}: classical MAPF
+  kBorderedCsv,     // the same, but the map has a border and is a file of 0 and 1: Lazy CBS
   kGrove,           // {instance}, a *.cts.json file: every Grove instance
   kLibmrp,          // {instance}, YAML of libMultiRobotPlanning: classical MAPF
   kPotentialGoals,  // {instance}, the YAML of kLibmrp with one potential goal per agent: ITA-CBS,

@@ -115,5 +115,12 @@ TEST_F(MapFile, RoundTrips) {
   EXPECT_EQ(file_content(directory_ / "out.map"), kHeader + ".@.\n..@\n");
 }
 
+TEST_F(MapFile, BorderedCsvHasABorderOfBlockedCells) {
+  const Grid grid(3, 2, {true, false, true, true, true, false});
+  write_bordered_csv(directory_ / "out.csv", grid);
+  EXPECT_EQ(file_content(directory_ / "out.csv"),
+            "4,5\n1,1,1,1,1\n1,0,1,0,1\n1,0,0,1,1\n1,1,1,1,1\n");
+}
+
 }  // namespace map_file_test
 }  // namespace grove::detail

@@ -67,6 +67,16 @@ TEST_F(PlanImport, ReadsPathLists) {
   EXPECT_EQ(plan.unclaimed, (Words{"cost", "lower bound"}));
 }
 
+// Lazy CBS separates the cells by blanks.
+TEST_F(PlanImport, ReadsPathListsWithBlanks) {
+  std::string text = kLists;
+  for (std::size_t at = text.find("->"); at != std::string::npos; at = text.find("->"))
+    text.replace(at, 2, text[at + 2] == '\n' ? "" : " ");
+  const ClaimedPlan plan = read(text);
+  EXPECT_EQ(check(mapf_, plan.solution).size(), 0u);
+  EXPECT_EQ(plan.solution.plan->cost, 10);
+}
+
 TEST_F(PlanImport, ReadsTheTextOfLacam) {
   const ClaimedPlan plan = read(kText);
   EXPECT_EQ(check(mapf_, plan.solution).size(), 0u);

@@ -109,7 +109,7 @@ TEST(SolverFiles, OfGroveAreValid) {
     EXPECT_EQ(solver.name, item.path().stem());
     ++count;
   }
-  EXPECT_EQ(count, 6);
+  EXPECT_EQ(count, 7);
 }
 
 TEST(SolverCommands, AreSplitIntoWords) {

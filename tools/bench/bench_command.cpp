@@ -58,9 +58,9 @@ A run counts as solved if it ended with a plan before any limit. A run that reac
 not solved, even with a plan. So this rates methods that improve their plan until the limit
 (cts-cbs-c --anytime) below their worth. Exits with 130 if it was stopped before all runs were done.
 
---solver adds an external solver, by an adapter: eecbs, cbsh2-rtc, mapf-lns2, lacam3, mgcbs,
-ita-cbs2, or one of your own (docs/benchmarking.md). Options after the program are added to those
-of the adapter, or replace them. Plans are re-checked and their costs recomputed. An invalid plan
+--solver adds an external solver, by an adapter: eecbs, cbsh2-rtc, lazy-cbs, mapf-lns2, lacam3,
+mgcbs, ita-cbs2, or one of your own (docs/benchmarking.md). Options after the program are added to
+those of the adapter, or replace them. Plans are re-checked and their costs recomputed. An invalid plan
 is "wrong", a plan that the solver only reports is "claimed", and a claim of any method that a
 result of another one disproves is "refuted" at the end. A solver that always runs until its limit,
 according to its adapter, has solved an instance if it has a plan in time.

@@ -149,7 +149,8 @@ void ExternalRun::write_input(const batch::Entry& entry) {
   instance_ = entry.path;
   switch (solver_.adapter.input) {
     case SolverInput::kMovingAi:
-      return write_moving_ai();
+    case SolverInput::kBorderedCsv:
+      return write_map_and_scenario();
     case SolverInput::kGrove:
       if (entry.agents == 0) return;
       instance_ = folder_ / "instance.cts.json";
@@ -165,10 +166,12 @@ void ExternalRun::write_input(const batch::Entry& entry) {
 
 // Writes a map and a scenario instead of passing the original files, because solvers differ in the
 // map characters that they treat as passable and in their use of further scenario rows.
-void ExternalRun::write_moving_ai() {
+void ExternalRun::write_map_and_scenario() {
   map_ = folder_ / "map.map";
   scenario_ = folder_ / "map.scen";
   write_scenario_instance(scenario_, solver_instance_, "map.map");
+  if (solver_.adapter.input == SolverInput::kBorderedCsv)
+    return write_bordered_csv(map_, solver_instance_.grid());
   write_map(map_, solver_instance_.grid());
 }
 

@@ -49,7 +49,7 @@ class ExternalRun {
   std::string value_of(std::string_view placeholder) const;
   std::string expand(const std::string& text) const;
   void write_input(const batch::Entry& entry);
-  void write_moving_ai();
+  void write_map_and_scenario();
   void read_claims(batch::Outcome& outcome, const std::filesystem::path& output_file) const;
   void read_trace(batch::Outcome& outcome, const std::filesystem::path& output_file) const;
   void read_plan(batch::Outcome& outcome, const ChildEnd& end);

@@ -20,11 +20,27 @@ ANYTIME = {"name": "fake-anytime", "anytime": True,
            "command": ADAPTER["command"],
            "trace": [{"regex": r"^at ([0-9.]+) cost (\d+)", "groups": ["seconds", "cost"]}]}
 WIDTH = 8
+# Reads and prints what Lazy CBS does. Its rows and columns are those of the map with the border.
+LAZY_CBS = """#!/usr/bin/env python3
+import sys
+from pathlib import Path
+from fake_solver import rows_of, straight
+options = dict(zip(sys.argv[1::2], sys.argv[2::2]))
+assert list(options) == ["--map", "--agents", "--upto", "--makespan"], options
+lines = Path(options["--map"]).read_text().splitlines()
+assert lines == ["10,10", ",".join("1" * 10), *[",".join("1" + "0" * 8 + "1")] * 8, ",".join("1" * 10)], lines
+paths = [straight(*row) for row in rows_of(options["--agents"], int(options["--upto"]))]
+for agent, path in enumerate(paths):
+    print(f"Agent {agent}:" + "".join(f" ({y},{x})" for x, y in path))
+cost = sum(len(path) - 1 for path in paths)
+print(f"lazy-cbs ; m.map ; a.scen ; {len(paths)} ; done ; 12.50 ; {cost} ; 3 ; 4 ; 5 ; 6 ; 7", file=sys.stderr)
+"""
 
 
 class ExternalSolverTests(Program):
     def setUp(self):
         super().setUp()
+        os.environ["PYTHONPATH"] = str(FAKE.parent)
         for adapter in (ADAPTER, ANYTIME):
             (self.folder / f"{adapter['name']}.json").write_text(json.dumps(adapter))
         self.add_map("maps/open.map")
@@ -236,6 +252,16 @@ class Commands(ExternalSolverTests):
                 self.assertEqual(row["cost"], self.rows()[instance, "grove"]["cost"], row["error"])
                 self.run_well("check", self.folder / f"instances/{instance}.cts.json",
                               self.folder / "out" / row["plan_file"])
+
+    def test_lazy_cbs_gets_a_bordered_map_and_prints_its_paths(self):
+        (self.folder / "lazy.py").write_text(LAZY_CBS)
+        (self.folder / "lazy.py").chmod(0o755)
+        self.add_scenario("open-random-1", 3)
+        self.run_well(*self.sweep(solvers=["lazy-cbs=./lazy.py --makespan 0"]))
+        row = self.rows()["open-random-1-2", "lazy-cbs"]
+        self.assertEqual((row["status"], row["solved"], row["cost"], row["claimed_cost"], row["claimed_lower_bound"]),
+                         ("feasible", True, 14, 14, 14), row["error"])
+        self.assertEqual(row["claimed_s"], 0.0125)
 
     def test_claimed_cost_is_read_from_the_output(self):
         self.add_scenario("open-random-1", 2)

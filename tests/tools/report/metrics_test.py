@@ -557,6 +557,20 @@ class Logs(Folder):
                          ("a", "maps/i.cts.json", 5, "bounded", 2.5))
         self.assertEqual([tuple(moment) for moment in run.moments], [(0.1, None, 8), (0.5, 12, 8), (2.5, 12, 9)])
 
+    def test_sources_of_the_bound(self):
+        path = self.log("a.jsonl", {"event": "bound", "time_s": 0.1, "lower_bound": 8, "raised_by": {"sequences": 8}},
+                        {"event": "progress", "time_s": 0.2, "lower_bound": 8},
+                        {"event": "bound", "time_s": 0.5, "lower_bound": 11, "raised_by": {"cores": 2, "wdg": 1}},
+                        {"event": "incumbent", "time_s": 0.7, "lower_bound": 12, "incumbent": 12,
+                         "raised_by": {"cores": 1, "oracle": 0}})
+        run = logs.read_log(path)
+        self.assertEqual([tuple(rise) for rise in run.rises],
+                         [(0.1, 8, {"individual": 8}), (0.5, 11, {"cores": 2, "wdg": 1}), (0.7, 12, {"cores": 1})])
+        self.assertEqual(run.shares(), {"individual": 8, "wdg": 1, "cores": 3})
+        other = logs.read_log(self.log("b.jsonl", {"event": "bound", "time_s": 1, "lower_bound": 8,
+                                                   "raised_by": {"oracle": 8}}))
+        self.assertEqual(list(logs.bound_sources([run, other])), ["individual", "wdg", "cores", "oracle"])
+
     def test_log_with_incomplete_last_line(self):
         run = logs.read_log(self.log("a.jsonl", {"event": "bound", "time_s": 1, "lower_bound": 8},
                                      end='\n{"event": "b'))
@@ -570,7 +584,11 @@ class Logs(Folder):
         self.assertEqual(logs.parted([table, log, other]), ([table, other], [log]))
 
     def test_malformed_events_are_refused(self):
-        for event, message in (({"event": "bound", "time_s": "x", "lower_bound": 8},
+        for event, message in (({"event": "bound", "time_s": 1, "lower_bound": 8, "raised_by": 8},
+                                "raised_by: found '8'; expected an object"),
+                               ({"event": "bound", "time_s": 1, "lower_bound": 8, "raised_by": {"cores": -1}},
+                                "raised_by, cores: found '-1'; expected an integer"),
+                               ({"event": "bound", "time_s": "x", "lower_bound": 8},
                                 "time_s: found '\"x\"'; expected a number"),
                                ({"event": "bound", "time_s": 1, "lower_bound": 1.5},
                                 "lower_bound: found '1.5'; expected an integer")):

@@ -384,6 +384,11 @@ class Reports(Folder):
         self.assert_files_are_there(page)
         self.assertTrue(Elements(page).balanced)
         self.assertIn('alt="Bound and plan of single runs"', page)
+        self.assertIn('alt="Sources of the lower bound"', page)
+        sources = self.table("bound_sources")
+        for name in ("seed-1", "seed-2"):
+            last = [row for row in rows if row["log"] == name][-1]
+            self.assertEqual(sum(int(row["steps"]) for row in sources if row["log"] == name), int(last["lower_bound"]))
         self.assertNotIn("Source of the rows", page)
         self.results(few(1, study=False, tasks=(10,)))
         done = run_here(self.folder, "-o", self.folder / "out")

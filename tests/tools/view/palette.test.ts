@@ -6,6 +6,7 @@ import { test } from "node:test";
 import { kDark, kLight } from "../../../tools/view/page/colors";
 import palette from "../../../tools/view/palette.json";
 import { kMemory } from "../../../tools/view/run/model";
+import { kBoundSources } from "../../../tools/view/run/words";
 
 declare const process: { env: Record<string, string> };
 const folder = process.env.GROVE_VIEW_SOURCES;
@@ -68,15 +69,34 @@ function seen(color: string, lack: keyof typeof kLack): number[] {
   return kLack[lack].map((row) => Math.max(0, row.reduce((sum, v, i) => sum + v * linear[i], 0)) ** (1 / 2.2));
 }
 
+function expectDistinct(colors: string[], name: string): void {
+  for (const lack of ["red", "green"] as const) {
+    const all = colors.map((color) => seen(color, lack));
+    all.forEach((a, i) => all.slice(0, i).forEach((b, j) => {
+      const distance = Math.hypot(...a.map((v, k) => v - b[k]));
+      assert.ok(distance > 0.12, `${name} without ${lack}: ${colors[i]} and ${colors[j]}: ${distance}`);
+    }));
+  }
+}
+
 test("activities of robots are distinct without red or green", () => {
-  for (const colors of [kLight, kDark])
-    for (const lack of ["red", "green"] as const) {
-      const all = colors.doing.map((color) => seen(color, lack));
-      all.forEach((a, i) => all.slice(0, i).forEach((b, j) => {
-        const distance = Math.hypot(...a.map((v, k) => v - b[k]));
-        assert.ok(distance > 0.12, `${colors.name} without ${lack}: ${colors.doing[i]} and ${colors.doing[j]}: ${distance}`);
-      }));
-    }
+  for (const colors of [kLight, kDark]) expectDistinct([...colors.doing], colors.name);
+});
+
+// Logs of grove-mpi have `tree` instead of `branching`.
+test("sources of the bound are distinct without red or green", () => {
+  for (const name of ["light", "dark"] as const) {
+    const { tree, ...others } = palette.run[name].raised;
+    assert.equal(tree, others.branching);
+    expectDistinct(Object.values(others), name);
+  }
+});
+
+test("each source of the bound has a colour in chart and legend", () => {
+  const style = source("run/style.css");
+  for (const name of Object.keys(kBoundSources))
+    for (const element of [".area.", ".entry i."])
+      assert.ok(style.includes(`${element}raised-${name} {`), `${element}raised-${name}`);
 });
 
 test("each kind of memory has a colour in chart and legend", () => {

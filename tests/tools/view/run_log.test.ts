@@ -3,12 +3,12 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { boundChart } from "../../../tools/view/run/charts";
+import { boundChart, boundSourcesOf, kSigns, sourcesChart } from "../../../tools/view/run/charts";
 import { layout } from "../../../tools/view/run/layout";
 import { Log } from "../../../tools/view/run/log";
 import type { TreeNode } from "../../../tools/view/run/model";
 import { linear, logarithmic, thin } from "../../../tools/view/run/scale";
-import { kSplits, verdict } from "../../../tools/view/run/words";
+import { kBoundSources, kPlanSources, kSplits, verdict } from "../../../tools/view/run/words";
 import { counts, header, incumbent, lines, node, root, row, summary } from "./logs";
 
 function read(...events: object[]) {
@@ -155,6 +155,39 @@ test("reading of a moment is its latest row", () => {
   assert.match(chart.read(1.5), /less than 30; no plan yet/);
   assert.match(chart.read(2), /best plan 33, no plan costs less than 30, gap 10 %/);
   assert.match(chart.read(9), /gap 0 %/);
+});
+
+test("the bound is divided among its sources", () => {
+  const run = read(header(), row({ time_s: 1, lower_bound: 30, raised_by: { individual: 30 } }),
+    row({ time_s: 2, lower_bound: 35, raised_by: { cores: 3, wdg: 2 } }), row({ time_s: 3, lower_bound: 35 }),
+    row({ time_s: 4, lower_bound: 36, raised_by: { cores: 1 } }));
+  assert.deepEqual(boundSourcesOf(run), ["individual", "wdg", "cores"]);
+  const chart = sourcesChart(run, false);
+  const area = (source: string) => chart.series.find(({ kind }) => kind === `raised-${source}`)!;
+  const values = (points: { value: number }[]) => points.map(({ value }) => value);
+  assert.deepEqual(values(area("cores").points), [30, 35, 35, 36]); // the bound
+  assert.deepEqual(values(area("cores").until!), [30, 32, 32, 32]);
+  assert.deepEqual(values(area("wdg").points), values(area("cores").until!));
+  assert.deepEqual(values(area("wdg").until!), [30, 30, 30, 30]);
+  assert.deepEqual(values(area("individual").until!), [29, 29, 29, 29]); // the lower edge of the chart
+  assert.match(chart.read(0.5), /nothing known/);
+  assert.match(chart.read(3.5), /bound 35; of it costs of single robots 30, unsatisfiable cores 3, joint costs of groups/);
+  assert.match(chart.read(4), /unsatisfiable cores 4/);
+});
+
+test("a bound without sources has no areas", () => {
+  const run = read(header(), row({ lower_bound: 30 }));
+  assert.deepEqual(boundSourcesOf(run), []);
+  assert.deepEqual(sourcesChart(run, false).series.map(({ name }) => name), ["lower bound"]);
+});
+
+// The names are those of docs/schemas/run-log-line.schema.json.
+test("all sources have words and signs", () => {
+  assert.deepEqual(Object.keys(kPlanSources).sort(), Object.keys(kSigns).sort());
+  for (const source of ["tree", "start", "prioritized", "lacam", "lns", "joint", "cores"])
+    assert.ok(source in kPlanSources, source);
+  for (const source of ["individual", "wdg", "branching", "joint", "cores", "lagrangian", "tree"])
+    assert.ok(source in kBoundSources, source);
 });
 
 test("verdict reports the quality of the plan", () => {

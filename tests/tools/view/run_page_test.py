@@ -112,6 +112,13 @@ class Pages(unittest.TestCase):
         self.browser.key("ArrowLeft")
         self.assertIn("2 s: best plan 36, no plan costs less than 30, gap 20 %", self.text(".readout"))
 
+    def test_bound_is_divided_among_its_sources(self):
+        self.show(lines(HEADER, row(1, "bound", raised_by={"individual": 30}),
+                        row(2, "bound", lower_bound=33, raised_by={"cores": 3}), SUMMARY))
+        self.assertIn("lower bound 33; of it costs of single robots 30, unsatisfiable cores 3", self.text("main"))
+        kinds = "[...document.querySelectorAll('.area')].map((area) => area.classList[1]).join()"
+        self.assertEqual(self.browser.evaluate(kinds), "gap,raised-cores,raised-individual")
+
     def test_large_log_is_shown(self):
         ranks = {"nodes": list(range(1000)), "open": [1] * 1000, "lower_bound": [30, None] * 500,
                  "memory_mb": [25.5] * 999 + [None], "low_level_calls": [7] * 1000,

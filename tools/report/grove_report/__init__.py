@@ -13,7 +13,7 @@ plans       reads plans of classical MAPF
 tracker     MAPF Tracker: writes rows, reads best known costs and bounds
 style       colours and markers
 figures     plots that compare methods (only figures and curves need matplotlib)
-curves      plots one column wide: success over agents, quality over time, single runs
+curves      plots one column wide: success over agents, quality over time, single runs, sources of their bounds
 tables      tables as CSV and as HTML
 report      builds all tables and figures of a report
 page        the HTML page

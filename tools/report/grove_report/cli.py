@@ -24,8 +24,8 @@ solution quality by map, agents and tasks; success over the number of agents; qu
 costs and times on the instances that all methods solve; instances solved over time; speed-ups over
 the baselines; the influence of omega. The report is one page, DIR/report.html, which needs only a
 browser. The same directory gets every figure as SVG and PNG and every table as CSV. Logs of single
-runs (grove solve --log-format jsonl) become one figure of lower bound and plan over time; a
-directory of results may hold logs, too."""
+runs (grove solve --log-format jsonl) become a figure of lower bound and plan over time and one of the
+sources of the lower bound; a directory of results may hold logs, too."""
 
 EPILOG = """\
 A line of a figure is a method with one omega and one time limit. Rows that differ only in the seed

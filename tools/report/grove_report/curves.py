@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: MIT
-"""Draws plots as wide as a column of a paper: success over the number of agents, quality over time, single runs."""
+"""Draws plots as wide as a column of a paper: success over the number of agents, quality over time, single runs and
+the sources of their lower bounds."""
+import itertools
 import math
 
 import matplotlib
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
 from .figures import (COLUMN, FAINT, SETTINGS, SHORTEST_S, SMALLEST, add_caption, add_legend, legend_height, new_figure,
                       number, pin_labels, wrapped)
+from .logs import bound_sources
 from .scales import dodged, rounded_down
-from .style import COLOURS, DASHES, MARKERS, depth, plot_arguments
+from .style import COLOURS, DASHES, KIND_COLOURS, MARKERS, SOURCE_COLOURS, depth, plot_arguments
 
 TITLE = 0.4  # height of two lines, inches
 LEFT, RIGHT = 0.46, 0.06
@@ -255,5 +259,52 @@ def _plot_runs(ax, found):
         low, high = min(costs), max(costs)
         margin = 0.07 * max(high - low, 1)
         ax.set_ylim(low - margin, high + margin)
+    ax.yaxis.set_major_locator(MaxNLocator(5, integer=True))
+    ax.yaxis.set_major_formatter(FuncFormatter(number))
+
+
+SOURCES_CAPTION = ("Black: lower bound. Areas: what each source has raised it by, from bottom to top in the order of "
+                   "the legend. The axis does not begin at 0.")
+
+
+def sources(found):
+    """Plots the lower bound over time, divided into the shares of its sources. `found`: logs.Runs, one panel each."""
+    with matplotlib.rc_context(SETTINGS):
+        labels = bound_sources(found)
+        colours = {source: SOURCE_COLOURS.get(source, KIND_COLOURS[5]) for source in labels}
+        caption = wrapped([SOURCES_CAPTION], COLUMN)
+        legend, end = 0.17 * math.ceil(len(labels) / 2) + 0.08, 0.13 * len(caption) + 0.06
+        panel, title, bottom, left = 1.2, 0.24, 0.42, 0.6
+        height = legend + len(found) * (title + panel + bottom) + end
+        figure = new_figure(height, COLUMN)
+        axes = figure.subplots(len(found), 1, squeeze=False, gridspec_kw={
+            "left": left / COLUMN, "right": 1 - RIGHT / COLUMN, "bottom": (bottom + end) / height,
+            "top": 1 - (legend + title) / height, "hspace": (title + bottom) / panel})
+        for ax, run in zip(axes.flat, found):
+            _plot_sources(ax, run, colours)
+            ax.set_title(run.name, pad=4, fontweight="bold")
+            ax.set(xlabel="time (s)", ylabel="lower bound")
+        pin_labels(axes, 0.42)
+        figure.legend(handles=[Patch(facecolor=colour, label=labels[source]) for source, colour in colours.items()],
+                      loc="upper center", frameon=False, ncol=2, handlelength=1.2, columnspacing=1.6, borderaxespad=0.2)
+        add_caption(figure, caption)
+        return figure
+
+
+def _plot_sources(ax, run, colours):
+    times = [rise.seconds for rise in run.rises]
+    last = max(run.end_s, times[-1])
+    bounds = [rise.bound for rise in run.rises]
+    above = bounds
+    for source, colour in reversed(colours.items()):
+        raised = itertools.accumulate(rise.steps.get(source, 0) for rise in run.rises)
+        below = [value - steps for value, steps in zip(above, raised)]
+        ax.fill_between([*times, last], [*below, below[-1]], [*above, above[-1]], step="post", color=colour,
+                        linewidth=0)
+        above = below
+    ax.plot([*times, last], [*bounds, bounds[-1]], drawstyle="steps-post", color="black", linewidth=0.8)
+    ax.set_xlim(0, 1.02 * max(last, SHORTEST_S))
+    margin = 0.07 * max(bounds[-1] - bounds[0], 1)
+    ax.set_ylim(bounds[0] - margin, bounds[-1] + margin)
     ax.yaxis.set_major_locator(MaxNLocator(5, integer=True))
     ax.yaxis.set_major_formatter(FuncFormatter(number))

@@ -1,13 +1,21 @@
 # SPDX-License-Identifier: MIT
-"""Reads lower bound and plan cost over time from logs of single runs (`grove solve --log-format jsonl`).
+"""Reads lower bound, its sources and plan cost over time from logs of single runs (`grove solve --log-format jsonl`).
 
 The first line of a file distinguishes a log from results, so a folder can contain both.
 """
 import json
+from collections import Counter
 from pathlib import Path
 from typing import NamedTuple, Optional
 
 from .rows import BadInput, printable, results_in
+
+
+# Sources of the lower bound, in the order in which figures stack them.
+BOUND_SOURCES = {"individual": "single agents", "wdg": "pairs and groups", "branching": "splits",
+                 "tree": "tree of the ranks", "lagrangian": "Lagrangian bound", "joint": "joint search",
+                 "cores": "unsatisfiable cores"}
+OLD_BOUND_SOURCES = {"sequences": "individual", "groups": "wdg", "splits": "branching"}  # before version 0.1
 
 
 class Moment(NamedTuple):
@@ -15,6 +23,13 @@ class Moment(NamedTuple):
     seconds: float
     cost: Optional[int]  # cost of the best plan so far
     bound: Optional[int]
+
+
+class Rise(NamedTuple):
+    """An increase of the lower bound."""
+    seconds: float
+    bound: int     # after the increase
+    steps: dict    # {source: increase by this source since the previous Rise}
 
 
 class Run(NamedTuple):
@@ -25,6 +40,14 @@ class Run(NamedTuple):
     status: str      # "" if the log contains no summary with a status
     end_s: float
     moments: list    # Moments in order of time; each differs from the previous one
+    rises: list      # Rises in order of time
+
+    def shares(self):
+        """Returns {source: steps by which it raised the lower bound in the whole run}."""
+        total = Counter()
+        for rise in self.rises:
+            total.update(rise.steps)
+        return dict(total)
 
 
 def _first_line(path):
@@ -69,6 +92,26 @@ def _moment(event, place):
         return None
     return Moment(float(seconds), *(_value(event, key, int, "an integer of at least 0", place)
                                     for key in ("incumbent", "lower_bound")))
+
+
+def _rise(event, place):
+    """Returns the Rise of an event. Returns None if the event does not name the sources of its lower bound."""
+    steps = event.get("raised_by")
+    if steps is None:
+        return None
+    if not isinstance(steps, dict):
+        raise BadInput(f"{place}, raised_by: found '{json.dumps(steps)[:60]}'; expected an object")
+    expected = "an integer of at least 0"
+    found = {OLD_BOUND_SOURCES.get(name, name): _value(steps, name, int, expected, f"{place}, raised_by")
+             for name in steps}
+    return Rise(float(event["time_s"]), event["lower_bound"], {name: step for name, step in found.items() if step})
+
+
+def bound_sources(runs):
+    """Returns {source: label} of the sources that raised the bound in any run, in the order of BOUND_SOURCES."""
+    found = {source for run in runs for source in run.shares()}
+    return ({source: label for source, label in BOUND_SOURCES.items() if source in found}
+            | {source: printable(source) for source in sorted(found - BOUND_SOURCES.keys())})
 
 
 def _last(event, place):
@@ -117,7 +160,7 @@ def _text_of(header, key):
 
 def read_log(path):
     """Reads one log and returns its Run. Raises BadInput, which names file, line and what was expected."""
-    header, moments, status, end = {}, [], "", 0.0
+    header, moments, rises, status, end = {}, [], [], "", 0.0
     for place, event in _events(path):
         if event.get("event") == "header":
             header = event
@@ -129,6 +172,9 @@ def read_log(path):
         if moment:
             moments.append(moment)
             end = max(end, moment.seconds)
+            if moment.bound is not None and (rise := _rise(event, place)):
+                rises.append(rise)
     agents = header.get("agents")
     return Run(printable(path.stem), _text_of(header, "instance"), agents if isinstance(agents, int) else None,
-               _text_of(header, "options"), status, end, _without_repeats(moments))
+               _text_of(header, "options"), status, end, _without_repeats(moments),
+               sorted(rises, key=lambda rise: rise.seconds))

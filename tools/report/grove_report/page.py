@@ -9,6 +9,7 @@ from .anytime import table_times
 from .counters import cache_names, label, other_names
 from .groups import grouped
 from .lines import method_name, omega_text, seconds_text
+from .logs import bound_sources
 from .metrics import by_line
 from .report import PROBLEM_NAMES
 from .rows import STATUSES_WITH_PLAN
@@ -560,7 +561,20 @@ def _runs(report):
                     "as an interactive page.", "column"),
             html_table(["log", "instance", Entry("N"), "status", Entry("cost"), Entry("lower bound"), Entry("s"),
                         "options"], rows),
-            _file(report, "As a file", "runs.csv")]
+            _file(report, "As a file", "runs.csv"), *_bound_sources(report)]
+
+
+def _bound_sources(report):
+    """Returns the part on what raised the lower bound of each run, and by how many steps."""
+    if not report.bound_sources:
+        return []
+    shares = [(run.name, run.shares()) for run in report.logs]
+    labels = bound_sources(report.logs)
+    rows = [[word(name), *(Entry(str(found.get(source, 0))) for source in labels), Entry(str(sum(found.values())))]
+            for name, found in shares if found]
+    return [_figure(report.bound_sources, "What each source has raised the lower bound by, in steps.", "column"),
+            html_table(["log", *(Entry(label) for label in labels.values()), Entry("sum")], rows),
+            _file(report, "As a file", "bound_sources.csv")]
 
 
 def _glossary():

@@ -23,7 +23,7 @@ PROBLEM_NAMES = {"mg": "MG-MAPF (agents without destinations)",
 WIDEST = 3
 # Names of the files of a report. make_report() removes such files of an earlier report from the directory.
 OWN_FILE = re.compile(rf"((summary|comparison|success|anytime|common|cactus|splits|search|speedup|only_solver)_"
-                      rf"({'|'.join(PROBLEMS)})|omega_study|runs)(_[0-9]+)?\.(svg|png|csv)"
+                      rf"({'|'.join(PROBLEMS)})|omega_study|runs|bound_sources)(_[0-9]+)?\.(svg|png|csv)"
                       r"|(contradictions|false_claims|best_known)\.csv")
 
 
@@ -81,6 +81,7 @@ class Report(NamedTuple):
     false_claims: list
     best_known: object  # BestKnown; None: not requested
     runs: object        # Figure of the logs; None: no logs
+    bound_sources: object  # Figure; None: no log names the sources of its lower bound
     logs: list
     agreements: int     # number of instances with a proven optimum from several methods
     errors: list        # (line, number of errors, most frequent message)
@@ -454,6 +455,19 @@ def _runs_figure(output, logs):
     return output.figure("runs", "Bound and plan of single runs", curves.runs(groups))
 
 
+MOST_PANELS = 30  # of the figure of bound sources; its table has all logs
+
+
+def _bound_sources_figure(output, logs):
+    logs = [run for run in logs if run.shares()]
+    if not logs:
+        return None
+    output.table("bound_sources", ["log", "time_s", "lower_bound", "source", "steps"],
+                 [[run.name, rise.seconds, rise.bound, source, steps]
+                  for run in logs for rise in run.rises for source, steps in rise.steps.items()])
+    return output.figure("bound_sources", "Sources of the lower bound", curves.sources(logs[:MOST_PANELS]))
+
+
 BEST_KNOWN_COLUMNS = ["map_name", "scen_type", "type_id", "agents", *LINE_COLUMNS, "best_known_bound",
                       "best_known_cost",
                       "cost", "lower_bound", "cost_ratio", "better_plan", "higher_bound", "closes"]
@@ -498,7 +512,8 @@ def make_report(results, logs, options, folder):
     false_claims = proofs.false_claims(rows, known_costs)
     output.table("false_claims", proofs.FalseClaim._fields, false_claims)
     best_known, runs = _best_known(output, rows, options), _runs_figure(output, logs)
+    bound_sources = _bound_sources_figure(output, logs)
     output.remove_others()
     notes = [*_notes(results, rows, lines, problems), *_unsupported(everything)]
     return Report(results._replace(rows=rows), lines, problems, studies, contradictions, false_claims, best_known,
-                  runs, logs, proofs.optimal_agreements(rows), _errors(rows, lines), notes, output.files)
+                  runs, bound_sources, logs, proofs.optimal_agreements(rows), _errors(rows, lines), notes, output.files)

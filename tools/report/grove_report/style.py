@@ -14,6 +14,10 @@ MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", "*", ">", "p")
 # black-and-white print.
 KIND_COLOURS = ("#9ECAE1", "#FDD0A2", "#74C476", "#DADAEB", "#E7969C", "#D9D9D9", "#F2E394", "#BC9F8B")
 
+# Colours of the sources of a lower bound. Logs of grove-mpi have `tree` instead of `branching`.
+SOURCE_COLOURS = {"individual": "#DDE1E6", "wdg": "#9ECAE1", "branching": "#6F9FD8", "tree": "#6F9FD8",
+                  "lagrangian": "#EFE08A", "joint": "#B9A06A", "cores": "#B0528F"}
+
 # Size factors that make different markers look equally large.
 EVEN = {"s": 0.86, "D": 0.74, "*": 1.3}
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Contents of the charts of a run: bound and incumbent, nodes, and memory.
+// Contents of the charts of a run: bound and incumbent, sources of the bound, nodes, and memory.
 
-import type { Contents, Mark, Point } from "./chart";
-import type { Row, Run } from "./model";
+import type { Contents, Mark, Point, Series } from "./chart";
+import type { Row, Run, Shares } from "./model";
 import { kMemory } from "./model";
 import type { Scale } from "./scale";
 import { linear, logarithmic } from "./scale";
@@ -11,7 +11,7 @@ import { kBoundSources, kPlanSources, megabytes, number, percent, seconds } from
 // Marks for an increase of the lower bound, and for plans by their source.
 export const kBoundSign = "⊥";
 export const kSigns: Record<string, string> = {
-  tree: "●", start: "■", prioritized: "▲", lacam: "◆", lns: "+",
+  tree: "●", start: "■", prioritized: "▲", lacam: "◆", lns: "+", joint: "▼", cores: "★",
 };
 export const kMemoryNames: Record<string, string> = {
   nodes: "tree nodes", subproblems: "costs of single robots", mdds: "MDDs (all paths of one cost)",
@@ -45,6 +45,60 @@ export function boundChart(run: Run, isLogarithmic: boolean): Contents {
     label: number,
     read: (time) => standing(rowAt(rows, time)),
   };
+}
+
+// Returns for each row how much each source has raised the lower bound so far.
+export function sharesOf(rows: Row[]): Shares[] {
+  let shares: Shares = new Map();
+  return rows.map(({ raisedBy }) => {
+    if (raisedBy.size > 0) shares = new Map(shares);
+    for (const [source, gain] of raisedBy) shares.set(source, (shares.get(source) ?? 0) + gain);
+    return shares;
+  });
+}
+
+// Returns the sources of the lower bound in a run, in the order in which the chart stacks them.
+export function boundSourcesOf(run: Run): string[] {
+  const found = new Set(run.rows.flatMap((row) => [...row.raisedBy.keys()]));
+  return Object.keys(kBoundSources).filter((source) => found.has(source));
+}
+
+export function sourcesChart(run: Run, isLogarithmic: boolean): Contents {
+  const { rows } = run;
+  const shares = sharesOf(rows);
+  const [least, most] = extremes(rows.map((row) => row.bound));
+  const room = Math.max(1, (most - least) * 0.05);
+  return {
+    ...frame(run, isLogarithmic, "Lower bound over time, divided into what raised it"),
+    y: linear(least - room, most + room),
+    series: [
+      ...sourceAreas(rows, shares, least - room),
+      { name: "lower bound", kind: "bound", points: rows.map(({ time, bound }) => ({ time, value: bound })) },
+    ],
+    marks: [],
+    label: number,
+    read: (time) => {
+      const index = indexAt(rows, time);
+      return index < 0 ? "nothing known yet" : sharesText(rows[index], shares[index]);
+    },
+  };
+}
+
+// Returns the lower bound divided into the shares of its sources. The last source ends at the bound. Values below
+// `least` are outside of the chart.
+function sourceAreas(rows: Row[], shares: Shares[], least: number): Series[] {
+  const bounds = rows.map((row) => row.bound);
+  const pointsOf = (values: number[]): Point[] =>
+    values.map((value, i) => ({ time: rows[i].time, value: Math.max(least, value) }));
+  const areas: Series[] = [];
+  let above = bounds;
+  for (const source of Object.keys(kBoundSources).reverse()) {
+    if (!shares[shares.length - 1]?.has(source)) continue;
+    const below = above.map((value, i) => value - (shares[i].get(source) ?? 0));
+    areas.push({ name: kBoundSources[source], kind: `raised-${source}`, points: pointsOf(above), until: pointsOf(below) });
+    above = below;
+  }
+  return areas;
 }
 
 export function nodesChart(run: Run, isLogarithmic: boolean): Contents {
@@ -126,15 +180,19 @@ function extremes(values: number[]): [number, number] {
   return values.length > 0 ? [least, most] : [0, 1];
 }
 
-// Returns the last row that is not after `time`; null: none.
-function rowAt<T extends { time: number }>(rows: T[], time: number): T | null {
+// Returns the index of the last row that is not after `time`; -1: none.
+function indexAt(rows: { time: number }[], time: number): number {
   let [least, most] = [0, rows.length];
   while (least < most) {
     const middle = (least + most) >> 1;
     if (rows[middle].time <= time + 1e-9) least = middle + 1;
     else most = middle;
   }
-  return least > 0 ? rows[least - 1] : null;
+  return least - 1;
+}
+
+function rowAt<T extends { time: number }>(rows: T[], time: number): T | null {
+  return rows[indexAt(rows, time)] ?? null;
 }
 
 function standing(row: Row | null): string {
@@ -142,6 +200,11 @@ function standing(row: Row | null): string {
   const bound = `no plan costs less than ${number(row.bound)}`;
   if (row.incumbent === null) return `${bound}; no plan yet`;
   return `best plan ${number(row.incumbent)}, ${bound}, gap ${percent(row.incumbent, row.bound)}`;
+}
+
+function sharesText(row: Row, shares: Shares): string {
+  const parts = [...shares].map(([source, gain]) => `${kBoundSources[source] ?? source} ${number(gain)}`);
+  return `lower bound ${number(row.bound)}; of it ${parts.join(", ")}`;
 }
 
 function memoryAt(run: Run, time: number): string {

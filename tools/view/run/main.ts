@@ -3,13 +3,14 @@
 
 import { el, setText } from "../page/dom";
 import { Chart } from "./chart";
-import { boundChart, endOf, kBoundSign, kMemoryNames, kSigns, memoryChart, nodesChart } from "./charts";
+import { boundChart, boundSourcesOf, endOf, kBoundSign, kMemoryNames, kSigns, memoryChart, nodesChart, sourcesChart } from "./charts";
 import { Follower } from "./follow";
 import { Log } from "./log";
 import { kMemory } from "./model";
+import type { Run } from "./model";
 import { boundsTable, factsList, momentsList, ranksTable, sourcesTable, splitsTable, workTable } from "./tables";
 import { TreeView } from "./tree_view";
-import { kOutcomes, kPlanSources, seconds, verdict } from "./words";
+import { kBoundSources, kOutcomes, kPlanSources, seconds, verdict } from "./words";
 
 const kShort = 2; // seconds: longer runs have a logarithmic time axis by default
 
@@ -19,10 +20,10 @@ class Page {
   private readonly title = el("h1", {}, "A run of Grove");
   private readonly verdict = el("p", { class: "verdict" });
   private readonly failure = el("p", { class: "failure", role: "alert", hidden: true });
-  private readonly charts = { bound: new Chart(), nodes: new Chart(), memory: new Chart() };
+  private readonly charts = { bound: new Chart(), boundSources: new Chart(), nodes: new Chart(), memory: new Chart() };
   private readonly tree = new TreeView();
   private readonly places = {
-    sources: el("div"), bounds: el("div"), splits: el("div"), work: el("div"), ranks: el("div"),
+    sources: el("div"), boundSources: el("div"), bounds: el("div"), splits: el("div"), work: el("div"), ranks: el("div"),
     moments: el("div"), facts: el("div"), noTree: el("p", { class: "faint" }),
   };
   private readonly time = el("button", { type: "button", click: () => this.toggleTime() }, "logarithmic time");
@@ -38,6 +39,7 @@ class Page {
       el("main", {},
         section("bound", "Quality of the plan", legend("bound"), this.charts.bound.element, this.time,
           el("div", { class: "pair" }, this.places.sources, this.places.bounds)),
+        section("boundSources", "Sources of the bound", this.places.boundSources, this.charts.boundSources.element),
         section("tree", "The search tree", treeLegend(), this.tree.element),
         section("noTree", "The search tree", this.places.noTree),
         section("work", "Effort of the search", el("div", { class: "pair" }, this.places.splits, this.places.work)),
@@ -93,6 +95,7 @@ class Page {
     const { run } = this.log;
     const put = (place: HTMLElement, content: HTMLElement | null) =>
       place.replaceChildren(...(content ? [content] : []));
+    put(this.places.boundSources, boundSourcesLegend(run));
     put(this.places.sources, sourcesTable(run));
     put(this.places.bounds, boundsTable(run));
     put(this.places.splits, splitsTable(run));
@@ -100,6 +103,7 @@ class Page {
     put(this.places.facts, factsList(run));
     put(this.places.moments, momentsList(run));
     put(this.places.ranks, ranksTable(run));
+    this.sections.boundSources.hidden = !this.places.boundSources.firstChild;
     this.sections.moments.hidden = run.moments.length === 0;
     this.sections.ranks.hidden = !this.places.ranks.firstChild;
     this.sections.tree.hidden = run.roots.length === 0;
@@ -115,6 +119,7 @@ class Page {
     const { run } = this.log;
     if (run.rows.length === 0) return;
     this.charts.bound.show(boundChart(run, this.isLogarithmicNow()));
+    if (!this.sections.boundSources.hidden) this.charts.boundSources.show(sourcesChart(run, false));
     this.charts.nodes.show(nodesChart(run, false));
     this.charts.memory.show(memoryChart(run, false));
     this.time.setAttribute("aria-pressed", String(this.isLogarithmicNow()));
@@ -148,6 +153,13 @@ function legend(chart: "bound" | "nodes" | "memory"): HTMLElement {
       ...kMemory.map((kind) => entry(`memory-${kind}`, kMemoryNames[kind]))],
   };
   return el("p", { class: "legend" }, ...entries[chart]);
+}
+
+function boundSourcesLegend(run: Run): HTMLElement | null {
+  const sources = boundSourcesOf(run);
+  if (sources.length === 0) return null;
+  return el("p", { class: "legend" }, el("span", { class: "entry" }, "From bottom to top:"),
+    ...sources.map((source) => entry(`raised-${source}`, kBoundSources[source])));
 }
 
 function treeLegend(): HTMLElement {

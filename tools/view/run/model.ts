@@ -25,6 +25,9 @@ export interface Row {
   raisedBy: Map<string, number>; // increase of the lower bound since the previous row, by source
 }
 
+// How much each source has raised the lower bound up to a row.
+export type Shares = Map<string, number>;
+
 // Kinds of memory that the log reports.
 export const kMemory = ["nodes", "subproblems", "mdds", "dependencies"] as const;
 export interface Counts {

@@ -2,7 +2,7 @@
 // Tables of a run: sources of plans and bounds, splits, counters, ranks, and events.
 
 import { el, plural } from "../page/dom";
-import { kSigns } from "./charts";
+import { kSigns, sharesOf } from "./charts";
 import type { Rank, Run } from "./model";
 import { kBoundSources, kPlanSources, kSplits, megabytes, number, seconds } from "./words";
 
@@ -42,10 +42,8 @@ export function sourcesTable(run: Run): HTMLElement {
 }
 
 export function boundsTable(run: Run): HTMLElement {
-  const gains = new Map<string, number>();
-  for (const row of run.rows)
-    for (const [source, gain] of row.raisedBy) gains.set(source, (gains.get(source) ?? 0) + gain);
-  const rows = [...gains].map(([source, gain]) => [kBoundSources[source] ?? source, number(gain)]);
+  const shares = sharesOf(run.rows);
+  const rows = [...shares[shares.length - 1] ?? []].map(([source, gain]) => [kBoundSources[source] ?? source, number(gain)]);
   return table(["The bound rose by", "steps"], rows.length > 0 ? rows : [["not raised yet", ""]]);
 }
 

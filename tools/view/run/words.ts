@@ -20,14 +20,18 @@ export const kPlanSources: Record<string, string> = {
   lacam: "all robots moved together (LaCAM)",
   lns: "parts of a plan planned again (large neighbourhood search)",
   joint: "all robots searched together (A*)",
+  cores: "a search for unsatisfiable cores",
 };
 
+// Sources of the lower bound, in the order in which the chart stacks them.
 export const kBoundSources: Record<string, string> = {
   individual: "costs of single robots",
   wdg: "joint costs of groups of robots",
   branching: "splits on conflicts",
-  joint: "joint search of all robots",
   tree: "the tree search of the ranks",
+  lagrangian: "the Lagrangian bound",
+  joint: "joint search of all robots",
+  cores: "unsatisfiable cores",
 };
 
 export const kOutcomes: Record<string, string> = {
