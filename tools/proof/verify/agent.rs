@@ -293,6 +293,9 @@ impl AgentModel {
         done.len() as u32 - 1
     }
 
+    /// Returns the index of a set of stops done if it has one.
+    pub fn known_number(&self, stops: u64) -> Option<u32> { self.choices[self.now].numbers.get(&stops).copied() }
+
     pub fn done(&self, number: u32) -> u64 { self.choices[self.now].done[number as usize].stops }
 
     /// Returns the least remaining cost from a pose, with the stops in set `number` done. If all paths through this state cost more than

@@ -61,6 +61,7 @@ struct Agent {
     /// It rests on this place at this time.
     rests: BTreeMap<At, Variable>,
     nodes: Vec<(NamedNode, Variable)>,
+    known_nodes: HashSet<(u32, Spot, u64)>,
     meets: Vec<(Constraint, Variable)>,
     /// By last inner place and exit of a traversal, and time.
     inside: BTreeMap<(u32, u32, u32), Variable>,
@@ -98,7 +99,7 @@ pub struct Formula {
     variables: u32,
     agents: Vec<Agent>,
     sums: Vec<Vec<Literal>>,
-    counts: HashMap<Count, Variable>,
+    counts: BTreeMap<Count, Variable>,
     splits: Vec<(Literal, Literal)>,
     /// By literal that states a constraint.
     constraints: HashMap<Literal, Constraint>,
@@ -148,7 +149,7 @@ impl Formula {
             }
             "active" => {
                 let (agent, variable) = (self.agent(tokens)?, self.variable()?);
-                self.agents[agent].active = Some(variable);
+                ensure(self.agents[agent].active.replace(variable).is_none(), "this variable exists")?;
             }
             "visit" | "last" | "rests" => {
                 let (agent, place) = (self.agent(tokens)?, tokens.index(places, "place")?);
@@ -166,7 +167,8 @@ impl Formula {
                 let (exit, time) = (tokens.index(places, "place")?, tokens.number()?);
                 ensure(chains.exit(inner, exit).is_some(), "expected the last place of a chain and the end next to it")?;
                 let (variable, of) = (self.variable()?, &mut self.agents[agent]);
-                if name == "inside" { of.inside.insert((inner, exit, time), variable) } else { of.ends.insert((inner, exit, time), variable) };
+                let map = if name == "inside" { &mut of.inside } else { &mut of.ends };
+                ensure(map.insert((inner, exit, time), variable).is_none(), "this variable exists")?;
             }
             "sum" => {
                 let inputs = self.literals(tokens)?;
@@ -180,7 +182,7 @@ impl Formula {
                 let good = first < end && end as usize <= inputs && end - first >= 2 && 0 < count && count <= end - first;
                 ensure(good, "expected two inputs or more, and at most their number")?;
                 let variable = self.variable()?;
-                self.counts.insert((sum, first, end, count), variable);
+                ensure(self.counts.insert((sum, first, end, count), variable).is_none(), "this variable exists")?;
             }
             "split" => {
                 let (one, two) = (self.literal(tokens)?, self.literal(tokens)?);
@@ -218,7 +220,9 @@ impl Formula {
         if tokens.take("since") { spot.since = tokens.number()?; }
         tokens.end()?;
         let variable = self.variable()?;
-        self.agents[agent as usize].nodes.push((NamedNode { time, place, spot, done }, variable));
+        let of = &mut self.agents[agent as usize];
+        ensure(of.known_nodes.insert((time, spot, done)), "this variable exists")?;
+        of.nodes.push((NamedNode { time, place, spot, done }, variable));
         Ok(())
     }
 
@@ -312,8 +316,12 @@ impl Formula {
                         for to in agent.arrivals((q, time + 1)) { self.clauses.add(&[no(meets), no(from), no(to)]); }
                     }
                 }
-                Kind::NoRest | Kind::Rest => {
-                    let violates = |at: At| (at.0 == p && at.1 <= s) == (kind == Kind::NoRest);
+                Kind::NoRest => {
+                    let violates = |&&(time, is_last, _): &&(u32, bool, Variable)| is_last && time <= s;
+                    for &(_, _, variable) in here.iter().filter(violates) { self.clauses.add(&[no(meets), no(variable)]); }
+                }
+                Kind::Rest => {
+                    let violates = |at: At| at.0 != p || s < at.1;
                     for &(_, variable) in lasts.iter().filter(|last| violates(last.0)) { self.clauses.add(&[no(meets), no(variable)]); }
                 }
                 Kind::Pass if s <= e => {
@@ -376,7 +384,10 @@ impl Formula {
                 1 if end - first == 1 => Some(Ok(sums[sum as usize][first as usize])),
                 _ => counts.get(&(sum, first, end, count)).map(|&variable| Ok(yes(variable))),
             };
-            for left in count.saturating_sub(end - middle)..=count.min(middle - first) {
+            let (least, most) = (count.saturating_sub(end - middle), count.min(middle - first));
+            let defined = counts.range((sum, first, middle, least)..=(sum, first, middle, most)).map(|(key, _)| key.3);
+            let simple = if middle - first == 1 { 0..=1 } else { 0..=0 };
+            for left in simple.filter(|left| (least..=most).contains(left)).chain(defined) {
                 if let Some((one, two)) = half(first, middle, left).zip(half(middle, end, count - left)) {
                     let clause: Vec<Literal> = one.into_iter().chain(two).map(not).chain([yes(variable)]).collect();
                     clauses.add(&clause);
@@ -399,8 +410,8 @@ impl Formula {
             match spot.and_then(|spot| paths.find(time, spot)) { Some(node) => of[node as usize] = Some(variable), None => stray.push(variable) }
         }
         for &(NamedNode { time, spot, done, .. }, variable) in &agent.nodes {
-            let spot = Spot { done: model.number(done), ..spot };
-            match paths.find(time, spot) {
+            let node = model.known_number(done).and_then(|done| paths.find(time, Spot { done, ..spot }));
+            match node {
                 Some(node) => of[node as usize] = Some(variable),
                 None if spot.work > 0 && !model.may_execute_in(spot.pose) => { self.clauses.add(&[no(variable)]); }
                 None => stray.push(variable),
