@@ -148,7 +148,8 @@ class Reader(unittest.TestCase):
         # All paths of a great excess, and many variables.
         self.ends(certificate(CROSS, "theorem 6", "formula", "agent 0 100000000", "end"), (1,), "^refused: ",
                   options=["--time-limit", "1", "--memory-limit", "0.1"], seconds=3)
-        self.ends(certificate(CROSS, "theorem 6", "formula", *["active 0"] * 3000000, "end"), (1,), "^refused: ",
+        many = (f"visit 0 0 {time}" for time in range(3000000))
+        self.ends(certificate(CROSS, "theorem 6", "formula", *many, "end"), (1,), "^refused: ",
                   options=["--memory-limit", "0.1"], seconds=5)
 
     def test_huge_numbers_are_refused(self):

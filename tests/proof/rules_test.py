@@ -27,6 +27,9 @@ STRAIGHT = [*(f"agent {agent} 0" for agent in range(3)), *(f"within {agent} 0" f
             *(f"visit 2 {14 - time} {time}" for time in range(4)), "last 2 10 4",
             "sum -1 -2", "count 0 0 2 2", "sum -3 19"]
 CORES = ["core 0", "clause -1 -3", "clause -2 -3", "core 1"]
+# The same paths, if agent 1 must visit the common cell: nodes take the place of its visits.
+ERRAND = Instance(STAR.world, STAR.agents, [(12, 0, [1])])
+NODES = ["node 1 0 2 0 0", "node 1 1 7 0 0", "node 1 2 12 0 1", "node 1 3 17 0 1", "node 1 4 22 0 1 since 4"]
 # One agent follows the other.
 ROW = Instance(grid("...."), [Agent((1,), 3), Agent((0,), 2)])
 # Two agents exchange places; a detour takes three steps.
@@ -295,6 +298,28 @@ class Rules(unittest.TestCase):
             self.refused_formula("the core does not follow", STAR, 14, *wrong, CORES[0], at=first)
         self.verified(STAR, "theorem 14", "formula",
                       *[line.replace("agent 1 0", "agent 1 2") for line in STRAIGHT], *CORES, "end")
+
+    def test_nodes_take_the_place_of_presences_without_variables(self):
+        nodes = dict(zip((line for line in STRAIGHT if line.startswith(("visit 1", "last 1"))), NODES))
+        lines = [nodes.get(line, line) for line in STRAIGHT]
+        self.verified(ERRAND, "theorem 14", "formula", *lines, *CORES, "end")
+        # With a variable, the presence follows from the node.
+        own = ["visit 1 12 2", "last 1 22 4"]
+        self.verified(ERRAND, "theorem 14", "formula", *lines, *own, "clause -11 20", "clause -13 21", *CORES, "end")
+        self.refused_formula("the clause does not follow", ERRAND, 14, *lines, *own, "clause -10 20",
+                             at=len(lines) + 3)
+        # Nodes of other times and stops are no part of the straight path.
+        for wrong in ("node 1 3 12 0 1", "node 1 2 12 0 0", "node 1 2 12 0 1 since 2", "node 1 2 12 0 1 since 1"):
+            self.refused_formula("the core does not follow", ERRAND, 14,
+                                 *(wrong if line == NODES[2] else line for line in lines), CORES[0], at=len(lines) + 1)
+
+    def test_variables_are_defined_once(self):
+        for line in ("within 0 0", "active 0", "visit 0 10 0", "last 0 14 4", "rests 0 14 inf", "rests 0 14 5",
+                     "count 0 0 2 1", NODES[0], NODES[4]):
+            self.refused_formula("this variable exists", ERRAND, 14, "within 0 9", "within 1 9", "sum -1 -2", line,
+                                 line, at=5)
+        for line in ("inside 0 9 10 2", "ends 0 9 10 2"):
+            self.refused_formula("this variable exists", HALL, 14, line, line, at=2)
 
     def test_cores_consist_of_soft_literals(self):
         first = len(STRAIGHT) + 1
