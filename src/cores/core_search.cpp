@@ -136,23 +136,11 @@ void CoreSearch::raise_by(const GroupExcess& excess) {
 
 CoreSearch::Outcome CoreSearch::solve() {
   if (!new_statements_.empty() || !statements_.empty()) return use_statement();
-  std::int64_t conflicts = 0;
   switch (solve(active_, kConflictsPerStep)) {
     case SatSolver::Result::kUnknown:
       return stopped_or(Outcome::kWorking);
     case SatSolver::Result::kSatisfiable:
-      conflicts = add_conflicts();
-      model_.prefer_paths();  // the next model has most of them
-      if (conflicts > 0) return Outcome::kWorking;
-      if (!deferred_.empty()) {
-        active_.insert(active_.end(), deferred_.begin(), deferred_.end());
-        deferred_.clear();
-        return Outcome::kWorking;
-      }
-      if (!model_.has_all_paths()) return Outcome::kExhausted;
-      plan_ = model_.plan();
-      GROVE_CHECK(plan_->cost <= lower_bound_, "a model of all soft literals costs the bound");
-      return Outcome::kSolved;
+      return use_model();
     case SatSolver::Result::kUnsatisfiable:
       core_ = {.softs = failed(active_), .retries = kRetries};
       if (core_.softs.empty()) return prove_cutoff();
@@ -160,6 +148,22 @@ CoreSearch::Outcome CoreSearch::solve() {
       return Outcome::kWorking;
   }
   GROVE_CHECK(false, "the solver has one of three results");
+}
+
+// Uses a model of all active soft literals.
+CoreSearch::Outcome CoreSearch::use_model() {
+  const std::int64_t conflicts = add_conflicts();
+  model_.prefer_paths();  // the next model contains most of these paths
+  if (conflicts > 0) return Outcome::kWorking;
+  if (!deferred_.empty()) {
+    active_.insert(active_.end(), deferred_.begin(), deferred_.end());
+    deferred_.clear();
+    return Outcome::kWorking;
+  }
+  if (!model_.has_all_paths()) return Outcome::kExhausted;
+  plan_ = model_.plan();
+  GROVE_CHECK(plan_->cost <= lower_bound_, "a model of all soft literals costs the bound");
+  return Outcome::kSolved;
 }
 
 // The hard clauses, which hold for all plans below the cutoff, have no model.

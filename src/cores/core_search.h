@@ -94,6 +94,7 @@ class CoreSearch {
   Outcome use_statement();
   void raise_by(const GroupExcess& excess);
   Outcome solve();
+  Outcome use_model();
   Outcome minimize();
   Outcome exhaust();
   void start_relaxation();

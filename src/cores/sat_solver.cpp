@@ -125,8 +125,8 @@ class SatSolver::Solver {
     solver.set("inprocessing", 0);
     solver.set("phase", 0);
     // A restart, and a jump over many levels, repeats most of the propagation: formulas have
-    // hundreds of thousands of variables, and most conflicts are local. (Four instances with 100
-    // agents and 200 or 300 tasks: 0.6 of the time.)
+    // hundreds of thousands of variables, and most conflicts are local. (Two instances with 100
+    // agents and 300 tasks: fewer restarts 0.69, fewer jumps 0.87 of the time.)
     solver.set("restartint", 50);
     solver.set("chronolevelim", 20'000);
     if (proof != nullptr) {
