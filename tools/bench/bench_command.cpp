@@ -60,8 +60,8 @@ not solved, even with a plan. So this rates methods that improve their plan unti
 
 --solver adds an external solver, by an adapter: eecbs, cbsh2-rtc, lazy-cbs, mapf-lns2, lacam3,
 mgcbs, ita-cbs2, or one of your own (docs/benchmarking.md). Options after the program are added to
-those of the adapter, or replace them. Plans are re-checked and their costs recomputed. An invalid plan
-is "wrong", a plan that the solver only reports is "claimed", and a claim of any method that a
+those of the adapter, or replace them. Plans are re-checked and their costs recomputed. An invalid
+plan is "wrong", a plan that the solver only reports is "claimed", and a claim of any method that a
 result of another one disproves is "refuted" at the end. A solver that always runs until its limit,
 according to its adapter, has solved an instance if it has a plan in time.
 
