@@ -8,6 +8,7 @@
 
 #include "model/random.h"
 #include "model/tuning.h"
+#include "planning/conflict_avoidance_table.h"
 #include "primal/neighborhoods.h"
 #include "primal/planned_paths.h"
 #include "primal/primal_low_level.h"
@@ -18,7 +19,8 @@ namespace grove::detail {
 // these agents one after the other, in random order. It keeps the new paths if their total cost is
 // not higher. After many iterations without improvement it also keeps them if the plan costs a
 // little more than the best plan so far (record-to-record travel: Dueck 1993). The low level also
-// chooses the order of each agent's tasks. One thread at a time.
+// chooses the order of each agent's tasks. Among paths of equal cost it prefers those that avoid
+// the individual paths of the agents still to be planned. One thread at a time.
 class LargeNeighborhoodSearch {
  public:
   // All references must outlive this object.
@@ -28,7 +30,8 @@ class LargeNeighborhoodSearch {
         paths_(paths),
         random_(random),
         tuning_(tuning),
-        neighborhoods_(problem, low_level, paths, random, tuning) {}
+        neighborhoods_(problem, low_level, paths, random, tuning),
+        unplanned_(problem.instance.world()) {}
 
   // Runs one iteration. All agents must have paths; they also have paths afterwards, even if a
   // limit is reached.
@@ -46,11 +49,11 @@ class LargeNeighborhoodSearch {
  private:
   // Repair operator: a way to re-plan one agent. It searches exactly, greedily, or for least
   // penalised cost (only with a dual solution). choose_repair() mostly selects an operator by its
-  // statistics, which are decaying sums.
+  // statistics. `gain` and `work` decay in each iteration, the other two in calls of the operator.
   struct RepairOperator {
     int inflation_percent;
     bool priced;
-    double gain = 0;                     // total cost reduction
+    double gain = 0;                     // cost reduction, and kNewPaths per set of new paths
     double work = 1;                     // effort (unit: model/effort.h)
     double labels = 0;                   // number of labels of calls that found a path
     double found = 0;                    // number of calls that found a path
@@ -58,11 +61,13 @@ class LargeNeighborhoodSearch {
   };
 
   RepairOperator& choose_repair();
+  void reward(RepairOperator& repair, Cost gain, bool has_new_paths, std::int64_t work);
   Cost worse_allowed(Cost cost);
   bool replan(const std::vector<AgentIndex>& agents, Cost total_cutoff, RepairOperator& repair,
               const Limits& limits);
   bool find(AgentIndex agent, Cost cutoff, RepairOperator& repair, const Limits& limits);
   void restore(const std::vector<AgentIndex>& agents);
+  bool has_new_paths(const std::vector<AgentIndex>& agents) const;
 
   PrimalLowLevel& low_level_;
   PlannedPaths& paths_;
@@ -72,9 +77,10 @@ class LargeNeighborhoodSearch {
   std::array<RepairOperator, 3> repair_operators_{
       RepairOperator{0, false}, RepairOperator{30, false}, RepairOperator{0, true}};
   Cost own_costs_ = 0;
-  Cost best_ = kInfiniteCost;  // least plan cost since begin()
-  std::int64_t failures_ = 0;  // iterations since best_ improved
-  std::vector<Path> old_paths_;
+  Cost best_ = kInfiniteCost;         // least plan cost since begin()
+  std::int64_t failures_ = 0;         // iterations since best_ improved
+  std::vector<Path> old_paths_;       // of the agents of the neighbourhood
+  ConflictAvoidanceTable unplanned_;  // individual paths of its agents that have no path yet
   Path path_;
   std::int64_t steps_ = 0;
 };
