@@ -14,7 +14,10 @@
 //
 // *Ties.* Among paths of equal cost, the low level prefers paths that have few conflicts with the
 // individual paths of the agents that are planned later in the iteration. These agents then find
-// cheaper paths. Plans are cheaper on all kinds of maps (benchmarks/README.md).
+// cheaper paths. The incumbents of 12 classical instances (60 to 500 agents, 10 s) cost 0.974 to
+// 1.006 times as much as without this preference, the statistics above, and the preference of
+// prioritised planning; geometric mean 0.992. den312d with 100 agents and 300 tasks, two seeds, 30
+// s: 25,480 and 23,819 before, 25,446 and 23,749 with the statistics, 25,408 and 23,685 with both.
 //
 // *Label limit.* A low-level call is aborted after many times the mean number of labels of calls
 // that found a path, because by then usually no path exists, and the time is better spent

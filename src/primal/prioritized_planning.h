@@ -8,6 +8,7 @@
 
 #include "model/random.h"
 #include "model/tuning.h"
+#include "planning/conflict_avoidance_table.h"
 #include "primal/planned_paths.h"
 #include "primal/primal_low_level.h"
 
@@ -28,7 +29,12 @@ class PrioritizedPlanning {
   // All references must outlive this object.
   PrioritizedPlanning(const World& world, PrimalLowLevel& low_level, PlannedPaths& paths,
                       Random& random, const Tuning& tuning)
-      : world_(world), low_level_(low_level), paths_(paths), random_(random), tuning_(tuning) {}
+      : world_(world),
+        low_level_(low_level),
+        paths_(paths),
+        random_(random),
+        tuning_(tuning),
+        unplanned_(world) {}
 
   // Removes all paths and starts with the agent order `order`. All agents must have individual
   // paths (PrimalLowLevel::plan_individually()).
@@ -76,6 +82,7 @@ class PrioritizedPlanning {
   std::int64_t failures_ = 0;  // since begin()
   bool greedily_ = false;      // the next call searches greedily
   LabelsOfFound labels_of_found_;
+  ConflictAvoidanceTable unplanned_;  // individual paths of the agents without a path
   Path path_;
 };
 

@@ -10,6 +10,7 @@
 
 #include "crowd.h"
 #include "first_violation.h"
+#include "model/random.h"
 #include "prices.h"
 #include "search/feasibility.h"
 #include "tests/fuzz/random_instance.h"
@@ -178,6 +179,25 @@ Instance doors() {
   return instance_of(rows, agents);
 }
 
+// Pillars, and many agents that change places.
+Instance pillars() {
+  const int size = 10;
+  std::vector<std::string> rows(size, std::string(size, '.'));
+  std::vector<Position> cells;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      if (x % 3 == 1 && y % 3 == 1)
+        rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] = '@';
+      else
+        cells.push_back({x, y});
+    }
+  Random random(1);
+  random.shuffle(cells);
+  std::vector<testing::AgentSpec> agents;
+  for (std::size_t i = 0; i < 56; ++i) agents.push_back({cells[i], cells[i + 1]});
+  return instance_of(rows, agents);
+}
+
 TEST(PrimalSearch, ImprovesItsFirstPlan) {
   const Instance instance = doors();
   Search search(instance);
@@ -237,21 +257,17 @@ TEST(PrimalSearch, EveryPlanWithDualSolutionsIsValid) {
 // Record-to-record travel accepts slightly worse plans but does not report them. It finds plans
 // that pure descent misses.
 TEST(PrimalSearch, AcceptsSlightlyWorsePlansToImproveFurther) {
-  const Instance instance = doors();
-  int better = 0, worse = 0;
-  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+  const Instance instance = pillars();
+  Cost by_descent = 0, by_walk = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
     Tuning walk;
     walk.record_deviation_max_loss = 10;
     Tuning descent;
     descent.record_deviation = 0;
-    const Cost by_descent =
-        Search(instance, seed, Techniques::defaults(), descent).plans(250).back().cost;
-    const Cost by_walk =
-        Search(instance, seed, Techniques::defaults(), walk).plans(250).back().cost;
-    better += by_walk < by_descent;
-    worse += by_walk > by_descent;
+    by_descent += Search(instance, seed, Techniques::defaults(), descent).plans(250).back().cost;
+    by_walk += Search(instance, seed, Techniques::defaults(), walk).plans(250).back().cost;
   }
-  EXPECT_GT(better, worse);
+  EXPECT_LT(by_walk, by_descent);
 }
 
 TEST(PrimalSearch, RestartsWhenItStalls) {
