@@ -19,8 +19,8 @@ namespace grove::detail {
 // these agents one after the other, in random order. It keeps the new paths if their total cost is
 // not higher. After many iterations without improvement it also keeps them if the plan costs a
 // little more than the best plan so far (record-to-record travel: Dueck 1993). The low level also
-// chooses the order of each agent's tasks. Among paths of equal cost it prefers those that avoid
-// the individual paths of the agents still to be planned. One thread at a time.
+// chooses the order of each agent's tasks. Among paths of equal cost it prefers those that leave
+// the paths that the agents still to be planned are likely to take. One thread at a time.
 class LargeNeighborhoodSearch {
  public:
   // All references must outlive this object.
@@ -31,7 +31,7 @@ class LargeNeighborhoodSearch {
         random_(random),
         tuning_(tuning),
         neighborhoods_(problem, low_level, paths, random, tuning),
-        unplanned_(problem.instance.world()) {}
+        wanted_(problem.instance.world()) {}
 
   // Runs one iteration. All agents must have paths; they also have paths afterwards, even if a
   // limit is reached.
@@ -77,10 +77,10 @@ class LargeNeighborhoodSearch {
   std::array<RepairOperator, 3> repair_operators_{
       RepairOperator{0, false}, RepairOperator{30, false}, RepairOperator{0, true}};
   Cost own_costs_ = 0;
-  Cost best_ = kInfiniteCost;         // least plan cost since begin()
-  std::int64_t failures_ = 0;         // iterations since best_ improved
-  std::vector<Path> old_paths_;       // of the agents of the neighbourhood
-  ConflictAvoidanceTable unplanned_;  // individual paths of its agents that have no path yet
+  Cost best_ = kInfiniteCost;      // least plan cost since begin()
+  std::int64_t failures_ = 0;      // iterations since best_ improved
+  std::vector<Path> old_paths_;    // of the agents of the neighbourhood
+  ConflictAvoidanceTable wanted_;  // individual and old paths of its agents without a path
   Path path_;
   std::int64_t steps_ = 0;
 };
