@@ -37,10 +37,10 @@ TEST(PrimalShare, FallsAfterManyFailuresWithoutAPlan) {
 }
 
 TEST(PrimalShare, FollowsTheLastGain) {
-  Setting s(testing::random_crowd({.size = 8, .obstacles = 10, .agents = 12, .tasks = 12}, 1));
+  Setting s(testing::random_crowd({.size = 8, .obstacles = 10, .agents = 12, .tasks = 12}, 2));
   double min_x = 1;
   double max_x = 0;
-  for (int i = 0; i < 800; ++i) {
+  for (int i = 0; i < 400; ++i) {
     s.primal.step(s.limits);
     if (!s.primal.best_cost()) continue;
     ASSERT_FALSE(s.primal.optimal());
