@@ -394,6 +394,23 @@ class Reports(Folder):
         done = run_here(self.folder, "-o", self.folder / "out")
         self.assertRegex(done.stdout, ": [0-9]+ rows, 2 logs\n$")
 
+    def test_figures_of_logs_have_at_most_thirty_panels(self):
+        instance = Path(__file__).resolve().parents[3] / "benchmarks/data/rooms-32x32_n5_m10.cts.json"
+        subprocess.run([str(GROVE), "solve", str(instance), "--omega", "0", "--threads", "1", "--quiet",
+                        "--log", "a.jsonl", "--log-format", "jsonl"], cwd=self.folder, check=True)
+        log = (self.folder / "a.jsonl").read_text(encoding="utf-8")
+        self.assertIn(f'"instance":"{instance}"', log)
+        for number in range(30):
+            other = log.replace(f'"instance":"{instance}"', f'"instance":"{number}.cts.json"')
+            (self.folder / f"{number}.jsonl").write_text(other, encoding="utf-8")
+        done = run_here(self.folder, "-o", self.folder / "out")
+        self.assertEqual((done.returncode, done.stdout), (0, f"wrote {self.folder}/out/report.html: 31 logs\n"),
+                         done.stderr)
+        for name in ("runs", "bound_sources"):
+            self.assertEqual(len({row["log"] for row in self.table(name)}), 31)
+            figure = (self.folder / f"out/{name}.svg").read_text(encoding="utf-8")
+            self.assertEqual(len(re.findall(r'id="axes_\d+"', figure)), 30)
+
     def test_tracker_rows_and_best_known_values(self):
         """Compares the submission with rows from `grove convert`, and results with the best known values."""
         shutil.copy(Path(__file__).resolve().parents[3] / "benchmarks/data/empty-32x32.map",

@@ -440,6 +440,9 @@ def _unsupported(rows):
                f"{why}.")
 
 
+MOST_PANELS = 30  # of a figure of logs; its table has all logs
+
+
 def _runs_figure(output, logs):
     if not logs:
         return None
@@ -452,10 +455,8 @@ def _runs_figure(output, logs):
     output.table("runs", ["log", "instance", "agents", "options", "status", "time_s", "cost", "lower_bound"],
                  [[run.name, run.instance, run.agents, run.options, run.status, *moment]
                   for run in logs for moment in run.moments])
-    return output.figure("runs", "Bound and plan of single runs", curves.runs(groups))
-
-
-MOST_PANELS = 30  # of the figure of bound sources; its table has all logs
+    shown = dict(list(groups.items())[:MOST_PANELS])
+    return output.figure("runs", "Bound and plan of single runs", curves.runs(shown))
 
 
 def _bound_sources_figure(output, logs):
