@@ -10,7 +10,7 @@
 // Without gain, the operators get equal shares of the effort, because the statistics of an operator
 // decay also while it is not used. (If they did not, the operator whose calls fail soonest would be
 // used almost alone: on den312d with 100 agents and 300 tasks, 948 of 1,000 iterations were greedy,
-// and none of them changed a path.)
+// and none of them reduced the cost.)
 //
 // *Ties.* Among paths of equal cost, the low level prefers paths that have few conflicts with the
 // individual and the old paths of the agents that are planned later in the iteration. These agents
@@ -79,7 +79,7 @@ namespace {
 constexpr double kRepairLabels = 2000;  // base of the label limit per repaired agent
 // Multiple of the mean number of labels of successful calls that is added to this base.
 constexpr double kRepairLabelsFactor = 16;
-constexpr double kLabelsDecay = 0.98;  // decay factor of `labels` and `found` per call
+constexpr double kLabelsDecay = 0.98;  // decay factor of `labels` and `found` per path found
 constexpr double kGainDecay = 0.99;    // decay factor of `gain` and `work` per iteration
 // Value of new paths of equal or higher cost, as a cost reduction.
 constexpr double kNewPaths = 0.02;
@@ -130,13 +130,13 @@ LargeNeighborhoodSearch::RepairOperator& LargeNeighborhoodSearch::choose_repair(
   });
 }
 
-void LargeNeighborhoodSearch::reward(RepairOperator& repair, Cost gain, bool has_new_paths,
+void LargeNeighborhoodSearch::reward(RepairOperator& repair, Cost gain, bool is_new,
                                      std::int64_t work) {
   for (RepairOperator& any : repair_operators_) {
     any.gain *= kGainDecay;
     any.work *= kGainDecay;
   }
-  repair.gain += static_cast<double>(gain) + (has_new_paths ? kNewPaths : 0);
+  repair.gain += static_cast<double>(gain) + (is_new ? kNewPaths : 0);
   repair.work += static_cast<double>(work);
 }
 

@@ -49,7 +49,7 @@ class LargeNeighborhoodSearch {
  private:
   // Repair operator: a way to re-plan one agent. It searches exactly, greedily, or for least
   // penalised cost (only with a dual solution). choose_repair() mostly selects an operator by its
-  // statistics. `gain` and `work` decay in each iteration, the other two in calls of the operator.
+  // statistics. `gain` and `work` decay in each iteration, the other two with each path found.
   struct RepairOperator {
     int inflation_percent;
     bool priced;
@@ -61,7 +61,7 @@ class LargeNeighborhoodSearch {
   };
 
   RepairOperator& choose_repair();
-  void reward(RepairOperator& repair, Cost gain, bool has_new_paths, std::int64_t work);
+  void reward(RepairOperator& repair, Cost gain, bool is_new, std::int64_t work);
   Cost worse_allowed(Cost cost);
   bool replan(const std::vector<AgentIndex>& agents, Cost total_cutoff, RepairOperator& repair,
               const Limits& limits);
