@@ -120,7 +120,7 @@ class WorkSource {
   // Called only once the effort of lower tiers has reached start_effort().
   virtual Claim claim() { return {}; }
   // `lower_tier_effort`: effort of lower tiers so far.
-  virtual Share share(std::int64_t /*lower_tier_effort*/) const { return {}; }
+  virtual Share share(std::int64_t /*lower_tier_effort*/) { return {}; }
   // Returns a work item, or nullptr if there is none now.
   virtual std::unique_ptr<WorkItem> next() = 0;
   // False if the component does not pay for the item that it has just committed.

@@ -44,7 +44,7 @@ class ScriptedSource : public WorkSource {
 
   std::int64_t start_effort() const override { return script_.start; }
   Claim claim() override { return script_.claim; }
-  Share share(std::int64_t) const override { return script_.share; }
+  Share share(std::int64_t) override { return script_.share; }
   bool uses_idle_time() const override { return script_.uses_idle_time; }
   bool pays() const override { return script_.pays; }
   std::unique_ptr<WorkItem> next() override {

@@ -38,8 +38,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <map>
 #include <memory>
-#include <set>
+#include <utility>
 #include <vector>
 
 #include "engine/components.h"
@@ -95,7 +96,7 @@ class CoresWork : public WorkSource {
 
   std::int64_t start_effort() const override { return context_.options.tuning.cores_start_work; }
   Claim claim() override { return {.is_open = !over_}; }
-  Share share(std::int64_t lower_tier_effort) const override;
+  Share share(std::int64_t lower_tier_effort) override;
   bool uses_idle_time() const override { return false; }
   std::unique_ptr<WorkItem> next() override;
 
@@ -120,8 +121,9 @@ class CoresWork : public WorkSource {
     std::int64_t work = 0;
   };
   Progress run();
+  bool learn(const GroupExcess& statement);
   void exchange_excesses();
-  double wanted(std::int64_t lower_tier_effort) const;
+  double wanted(std::int64_t lower_tier_effort);
 
   const ComponentContext& context_;
   const double base_share_;
@@ -129,11 +131,12 @@ class CoresWork : public WorkSource {
   std::unique_ptr<CoreSearch> search_;  // made when first due
   Cost proven_ = 0;                     // the greatest bound so far
   std::atomic<std::int64_t> work_{0};
-  mutable Cost others_bound_ = 0;
-  mutable RiseRate others_rate_;
-  mutable RiseRate rate_;
+  Cost others_bound_ = 0;
+  RiseRate others_rate_;
+  RiseRate rate_;
   std::int64_t read_at_ = 0;  // effort at which the statements of the tree search were read
-  std::set<std::vector<AgentIndex>> known_;  // groups of these statements
+  std::map<std::vector<AgentIndex>, Cost>
+      known_;  // excesses by agents: statements of either search
   Counts counts_;
 };
 
@@ -184,6 +187,12 @@ CoresWork::Progress CoresWork::run() {
   return progress;
 }
 
+// Returns whether the statement is new to both searches, or gives its agents a greater excess.
+bool CoresWork::learn(const GroupExcess& statement) {
+  Cost& excess = known_[statement.agents];
+  return std::exchange(excess, std::max(excess, statement.excess)) < statement.excess;
+}
+
 // Reads the statements of the tree search when its effort has doubled. With a proof nothing is
 // exchanged, because a formula cannot use lemmas, and trees cannot use cores.
 void CoresWork::exchange_excesses() {
@@ -196,13 +205,14 @@ void CoresWork::exchange_excesses() {
   const std::shared_ptr<SharedCache> cache = context_.memory.cache();
   RootExcesses at_root(*cache, *tree);
   at_root.add(found);
+  for (const GroupExcess& excess : found) learn(excess);
   if (!is_due) return;
   read_at_ = work_;
   for (const GroupExcess& excess : at_root.all())
-    if (known_.insert(excess.agents).second) search_->add(excess);
+    if (learn(excess)) search_->add(excess);
 }
 
-Share CoresWork::share(std::int64_t lower_tier_effort) const {
+Share CoresWork::share(std::int64_t lower_tier_effort) {
   const Tuning& tuning = context_.options.tuning;
   const bool is_early = work_ < tuning.cores_early_work;
   const double most = is_early ? base_share_ : tuning.cores_max_share;
@@ -214,7 +224,7 @@ Share CoresWork::share(std::int64_t lower_tier_effort) const {
   return {.wanted = own, .cap = own};
 }
 
-double CoresWork::wanted(std::int64_t lower_tier_effort) const {
+double CoresWork::wanted(std::int64_t lower_tier_effort) {
   const Cost cutoff = context_.bounds.cutoff();
   const Cost bound = context_.bounds.lower_bound();
   const Frontier& frontier = context_.nodes.frontier;

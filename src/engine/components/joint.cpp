@@ -32,7 +32,7 @@ class JointWork : public WorkSource {
 
   std::int64_t start_effort() const override { return context_.options.tuning.joint_start_work; }
   Claim claim() override { return {.is_open = !over_}; }
-  Share share(std::int64_t /*lower_tier_effort*/) const override {
+  Share share(std::int64_t /*lower_tier_effort*/) override {
     const double most = context_.options.tuning.joint_max_share;
     return {.wanted = most, .cap = most};
   }

@@ -67,7 +67,7 @@ class PricingWork : public WorkSource {
 
   std::int64_t start_effort() const override { return owner_.start_effort(); }
   Claim claim() override { return owner_.claim(); }
-  Share share(std::int64_t /*lower_tier_effort*/) const override { return owner_.share(); }
+  Share share(std::int64_t /*lower_tier_effort*/) override { return owner_.share(); }
   std::unique_ptr<WorkItem> next() override {
     auto job = owner_.next();
     if (!job) return nullptr;

@@ -61,7 +61,7 @@ class PrimalWork : public WorkSource {
     const PrimalSearch& primal = updated_search();
     return {.is_open = !primal.optimal(), .is_urgent = primal.expects_plan()};
   }
-  Share share(std::int64_t lower_tier_effort) const override;
+  Share share(std::int64_t lower_tier_effort) override;
   std::unique_ptr<WorkItem> next() override;
   bool pays() const override { return !search_->expects_plan(); }
   void add_counts(Counters& counters) const override;
@@ -125,7 +125,7 @@ PrimalSearch& PrimalWork::updated_search() {
   return *search_;
 }
 
-Share PrimalWork::share(std::int64_t lower_tier_effort) const {
+Share PrimalWork::share(std::int64_t lower_tier_effort) {
   const Cost lower_bound = context_.bounds.lower_bound();
   const Cost cutoff = context_.bounds.cutoff();
   const bool gap_is_large =
