@@ -17,23 +17,29 @@ namespace {
 
 constexpr std::int64_t kRoundsPerPoll = 256;
 
-// Counts the conflicts and the rounds of the solver's main loop, and stops it at the limits.
+// Counts the work of the solver, and stops it at the limits.
 class Watcher : public CaDiCaL::Terminator, public CaDiCaL::Learner {
  public:
   explicit Watcher(const Limits& limits) : limits_(limits) {}
 
-  bool terminate() override { return ++rounds % kRoundsPerPoll == 0 && limits_.stop_requested(); }
-  bool learning(int) override {
+  bool terminate() override {
+    work += effort::kPerSolverRound;
+    return ++rounds_ % kRoundsPerPoll == 0 && limits_.stop_requested();
+  }
+  bool learning(int size) override {
     ++conflicts;
+    work += effort::kPerLearnedLiteral * size + literals / effort::kSolverLiterals;
     return false;
   }
   void learn(int) override {}
 
-  std::int64_t rounds = 0;
+  std::int64_t literals = 0;  // in added clauses
   std::int64_t conflicts = 0;
+  std::int64_t work = 0;  // of all calls (model/effort.h)
 
  private:
   const Limits& limits_;
+  std::int64_t rounds_ = 0;  // of the solver's main loop
 };
 
 // Reads a trace in the binary DRAT format, which arrives in pieces, and logs it. A step is 'a' or
@@ -184,13 +190,13 @@ void SatSolver::add(std::span<const Literal> clause) {
     solver_->solver.add(literal);
   }
   solver_->solver.add(0);
-  literals_ += std::ssize(clause);
+  solver_->watcher.literals += std::ssize(clause);
 }
 
 SatSolver::Result SatSolver::solve(std::span<const Literal> assumptions, int max_conflicts) {
   CaDiCaL::Solver& solver = solver_->solver;
   for (const Literal literal : assumptions) solver.assume(literal);
-  solves_work_ += variables_ / effort::kSolverVariables;
+  solver_->watcher.work += variables_ / effort::kSolverVariables;
   solver.limit("conflicts", max_conflicts);
   switch (solver.solve()) {
     case 10:
@@ -223,15 +229,14 @@ std::int64_t SatSolver::conflicts() const {
 }
 
 std::int64_t SatSolver::work() const {
-  return solves_work_ + solver_->watcher.rounds * effort::kPerSolverRound +
-         solver_->watcher.conflicts * effort::kPerSolverConflict + literals_;
+  return solver_->watcher.work + solver_->watcher.literals;
 }
 
 std::size_t SatSolver::bytes() const {
   constexpr std::size_t kPerVariable = 200;
   constexpr std::size_t kPerLiteral = 12;
   return static_cast<std::size_t>(variables_) * kPerVariable +
-         static_cast<std::size_t>(literals_ + 40 * conflicts()) * kPerLiteral;
+         static_cast<std::size_t>(solver_->watcher.literals + 40 * conflicts()) * kPerLiteral;
 }
 
 }  // namespace grove::detail

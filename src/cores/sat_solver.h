@@ -65,8 +65,6 @@ class SatSolver {
   std::unique_ptr<Solver> solver_;
   std::int64_t sums_ = 0;
   std::int64_t variables_ = 0;
-  std::int64_t literals_ = 0;  // in added clauses
-  std::int64_t solves_work_ = 0;
 };
 
 }  // namespace grove::detail

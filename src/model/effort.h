@@ -13,21 +13,23 @@ namespace grove::detail::effort {
 inline constexpr std::int64_t kUnitsPerCall = 16;  // of the low level, besides its labels
 
 // Operations of which this number counts as one unit.
-inline constexpr std::int64_t kScannedSteps = 4;      // path steps searched for conflicts
-inline constexpr std::int64_t kMovedSteps = 8;        // path steps added to or removed from tables
-inline constexpr std::int64_t kFieldStates = 5;       // states of a congestion distance field
-inline constexpr std::int64_t kTimedNodes = 2;        // nodes of time-expanded graphs
-inline constexpr std::int64_t kJointStates = 2;       // generated joint states
-inline constexpr std::int64_t kMoveTuples = 20;       // joint moves tried for a pattern database
-inline constexpr std::int64_t kPricedLabels = 2;      // labels of a search under multipliers
-inline constexpr std::int64_t kCountedSteps = 32;     // path steps counted between pricing rounds
-inline constexpr std::int64_t kSolverVariables = 10;  // variables of a SAT solver, at each call
+inline constexpr std::int64_t kScannedSteps = 4;       // path steps searched for conflicts
+inline constexpr std::int64_t kMovedSteps = 8;         // path steps added to or removed from tables
+inline constexpr std::int64_t kFieldStates = 5;        // states of a congestion distance field
+inline constexpr std::int64_t kTimedNodes = 2;         // nodes of time-expanded graphs
+inline constexpr std::int64_t kJointStates = 2;        // generated joint states
+inline constexpr std::int64_t kMoveTuples = 20;        // joint moves tried for a pattern database
+inline constexpr std::int64_t kPricedLabels = 2;       // labels of a search under multipliers
+inline constexpr std::int64_t kCountedSteps = 32;      // path steps counted between pricing rounds
+inline constexpr std::int64_t kSolverVariables = 7;    // variables of a SAT solver, at each call
+inline constexpr std::int64_t kSolverLiterals = 2100;  // literals of its clauses, at each conflict
 
-// Units per round of the main loop of a SAT solver, and per conflict. *Measured* with these rates
-// on nine instances of the core-guided search (random, empty and room maps, 20 to 150 agents): a
-// unit takes 0.19 to 0.32 microseconds, as that of expansions.
-inline constexpr std::int64_t kPerSolverRound = 24;
-inline constexpr std::int64_t kPerSolverConflict = 320;
+// Units per round of the main loop of a SAT solver, and per literal of a clause that it learns.
+// *Fitted* to the time of the solver in 19 core-guided searches of up to 40 s (20 to 200 agents):
+// a unit takes 0.24 to 0.66 microseconds in the mean of a search. (With fixed rates per round and
+// conflict, a unit took up to 7 times as long after 30 s as at the start.)
+inline constexpr std::int64_t kPerSolverRound = 39;
+inline constexpr std::int64_t kPerLearnedLiteral = 7;
 
 // Rates that estimate the duration of an expansion: labels and calls as above, and the other
 // operations in ExpansionCounts. Fitted by regression to the processor time of single expansions.
