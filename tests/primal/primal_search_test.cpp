@@ -234,8 +234,8 @@ TEST(PrimalSearch, EveryPlanWithDualSolutionsIsValid) {
   EXPECT_GT(with_dual, 50);
 }
 
-// Record-to-record travel accepts slightly worse plans but does not report them. The sum of its plan
-// costs is less than that of pure descent.
+// Record-to-record travel accepts slightly worse plans but does not report them. The sum of its
+// plan costs is less than that of pure descent.
 TEST(PrimalSearch, AcceptsSlightlyWorsePlansToImproveFurther) {
   const Instance instance =
       testing::random_crowd({.size = 10, .obstacles = 10, .agents = 64, .tasks = 0}, 1);

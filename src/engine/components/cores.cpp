@@ -21,7 +21,8 @@
 // *Measured*, by simulation from the bounds over time of either search alone, on 88 instances of
 // seven maps: if the tree search alone proves the optimum, it takes 0.95 of its effort in the
 // geometric mean for agents without tasks (2.1 at most), and 1.05 for agents with tasks (1.24;
-// with k = 0.15).
+// with k = 0.15, and with fixed rates of effort for the SAT solver). For the current values see
+// tunables.def.
 //
 // *Statements about groups.* "These agents together cost at least k more than individually" holds
 // at the root of the only tree, where no agent has a constraint. Both searches prove such
@@ -121,7 +122,7 @@ class CoresWork : public WorkSource {
     std::int64_t work = 0;
   };
   Progress run();
-  bool learn(const GroupExcess& statement);
+  bool record(const GroupExcess& statement);
   void exchange_excesses();
   double wanted(std::int64_t lower_tier_effort);
 
@@ -135,8 +136,7 @@ class CoresWork : public WorkSource {
   RiseRate others_rate_;
   RiseRate rate_;
   std::int64_t read_at_ = 0;  // effort at which the statements of the tree search were read
-  std::map<std::vector<AgentIndex>, Cost>
-      known_;  // excesses by agents: statements of either search
+  std::map<std::vector<AgentIndex>, Cost> recorded_;  // statements of either search, by group
   Counts counts_;
 };
 
@@ -187,10 +187,12 @@ CoresWork::Progress CoresWork::run() {
   return progress;
 }
 
-// Returns whether the statement is new to both searches, or gives its agents a greater excess.
-bool CoresWork::learn(const GroupExcess& statement) {
-  Cost& excess = known_[statement.agents];
-  return std::exchange(excess, std::max(excess, statement.excess)) < statement.excess;
+// Records a statement. Returns false if at least this excess of the group was recorded before.
+bool CoresWork::record(const GroupExcess& statement) {
+  Cost& excess = recorded_[statement.agents];
+  if (statement.excess <= excess) return false;
+  excess = statement.excess;
+  return true;
 }
 
 // Reads the statements of the tree search when its effort has doubled. With a proof nothing is
@@ -205,11 +207,11 @@ void CoresWork::exchange_excesses() {
   const std::shared_ptr<SharedCache> cache = context_.memory.cache();
   RootExcesses at_root(*cache, *tree);
   at_root.add(found);
-  for (const GroupExcess& excess : found) learn(excess);
+  for (const GroupExcess& excess : found) record(excess);
   if (!is_due) return;
   read_at_ = work_;
   for (const GroupExcess& excess : at_root.all())
-    if (learn(excess)) search_->add(excess);
+    if (record(excess)) search_->add(excess);
 }
 
 Share CoresWork::share(std::int64_t lower_tier_effort) {
