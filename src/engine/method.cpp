@@ -98,7 +98,25 @@ void require_published_problem(Method method, const Instance& instance) {
     refuse(method, "supports at most one task of an agent on a cell; expected another method");
 }
 
+// Throws std::invalid_argument if an agent has a choice, because no method assigns tasks or
+// destinations yet.
+void require_no_choices(const Instance& instance) {
+  for (const Agent& agent : instance.agents()) {
+    if (!agent.goals.empty())
+      throw std::invalid_argument(
+          fmt::format("agent '{}' has a choice of goals, which no method supports yet; expected "
+                      "'goal'",
+                      agent.id));
+    if (!agent.options.empty())
+      throw std::invalid_argument(
+          fmt::format("task '{}' has a choice of agents, which no method supports yet; expected no "
+                      "'need' below the number of its agents",
+                      instance.task(agent.options.front()).id));
+  }
+}
+
 void require_fit(Method method, const Instance& instance, const SolveOptions& options) {
+  require_no_choices(instance);
   const auto ends_at_a_goal = [](const Agent& agent) { return agent.goal.has_value(); };
   if (is_adaptation(method) && std::ranges::all_of(instance.agents(), ends_at_a_goal))
     refuse(method,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <limits>
 #include <stdexcept>
 
 #include "io/atomic_file.h"
@@ -80,6 +81,21 @@ std::optional<Place> read_goal(const InstanceBuilder& builder, const JsonValue& 
   return read_pose(builder.map(), {}, *goal).place;
 }
 
+// An empty list would leave an agent without a place to rest, which no user means.
+std::vector<Place> read_goals(const InstanceBuilder& builder, const JsonValue& agent) {
+  std::vector<Place> places;
+  const auto goals = agent.find("goals");
+  if (!goals) return places;
+  if (!goals->json().is_array() || goals->size() == 0)
+    goals->fail_expected("a list of at least one place");
+  for (std::size_t k = 0; k < goals->size(); ++k) {
+    const JsonValue goal = goals->element(k);
+    places.push_back(builder.roadmap() ? read_vertex(*builder.roadmap(), goal)
+                                       : read_pose(builder.map(), {}, goal).place);
+  }
+  return places;
+}
+
 std::optional<WorkBegun> read_working(const JsonValue& agent) {
   const auto working = agent.find("working");
   if (!working) return std::nullopt;
@@ -94,9 +110,11 @@ void add_agent(InstanceBuilder& builder, const JsonValue& agent) {
   spec.motion = read_motion(builder, agent);
   spec.start = read_start_pose(builder, spec.motion, agent);
   spec.goal = read_goal(builder, agent);
+  spec.goals = read_goals(builder, agent);
   if (const auto heading = agent.find("goal_heading")) {
     spec.goal_heading = read_heading(*heading);
-    if (!spec.goal) heading->fail("the agent has no goal; expected a goal, or no such key");
+    if (!spec.goal && spec.goals.empty())
+      heading->fail("the agent has no goal; expected a goal, or no such key");
   }
   spec.working = read_working(agent);
   at_place_of(agent, [&] { builder.add_agent(std::move(spec)); });
@@ -107,17 +125,32 @@ Time read_duration(const JsonValue& task) {
   return duration ? static_cast<Time>(duration->integer(0, InstanceBuilder::kMaxDuration)) : 0;
 }
 
+// Returns the ids of the agents of a task; "*" stands for those of all agents.
+std::vector<std::string> read_agents(const InstanceBuilder& builder, const JsonValue& task) {
+  const JsonValue agents = task.member("agents");
+  if (!agents.json().is_string()) return agents.texts();
+  if (agents.text() != "*") agents.fail_expected("a list of ids, or \"*\" for all agents");
+  return builder.agent_ids();
+}
+
+std::optional<int> read_need(const JsonValue& task) {
+  const auto need = task.find("need");
+  if (!need) return std::nullopt;
+  return static_cast<int>(need->integer(1, std::numeric_limits<int>::max()));
+}
+
 void add_task(InstanceBuilder& builder, const JsonValue& task) {
   const std::string id = task.member("id").text();
   const JsonValue cell = task.member("cell");
-  const std::vector<std::string> agents = task.member("agents").texts();
+  const std::vector<std::string> agents = read_agents(builder, task);
   const Time duration = read_duration(task);
+  const std::optional<int> need = read_need(task);
   if (builder.roadmap()) {
     const Place place = read_vertex(*builder.roadmap(), cell);
-    at_place_of(task, [&] { builder.add_task(id, place, agents, duration); });
+    at_place_of(task, [&] { builder.add_task(id, place, agents, duration, need); });
   } else {
     const Position position = cell.position();
-    at_place_of(task, [&] { builder.add_task(id, position, agents, duration); });
+    at_place_of(task, [&] { builder.add_task(id, position, agents, duration, need); });
   }
 }
 
@@ -240,6 +273,10 @@ OrderedJson agent_json(const Instance& instance, const Agent& agent) {
   OrderedJson json{{"id", agent.id},
                    {"start", place_json(map, start.steps > 0 ? agent.motion : Motion(), start)}};
   if (agent.goal) json["goal"] = place_json(map, {}, {.place = *agent.goal});
+  if (!agent.goals.empty()) {
+    OrderedJson& goals = json["goals"] = OrderedJson::array();
+    for (const Place goal : agent.goals) goals.push_back(place_json(map, {}, {.place = goal}));
+  }
   if (turns) json["motion"] = "turning";
   if (agent.motion.turn_steps > 1) json["turn_steps"] = agent.motion.turn_steps;
   if (turns) json["heading"] = std::string(1, letter(start.heading));
@@ -251,12 +288,19 @@ OrderedJson agent_json(const Instance& instance, const Agent& agent) {
   return json;
 }
 
-OrderedJson task_json(const Instance& instance, const Task& task) {
+// Writes "*" only for a task with a choice of agents, because an explicit list is easier to edit.
+OrderedJson agents_json(const Instance& instance, const Task& task) {
+  if (!task.needs_all() && std::ssize(task.agents) == instance.agent_count()) return "*";
   OrderedJson ids = OrderedJson::array();
   for (AgentIndex agent : task.agents) ids.push_back(instance.agent(agent).id);
+  return ids;
+}
+
+OrderedJson task_json(const Instance& instance, const Task& task) {
   OrderedJson json{{"id", task.id},
                    {"cell", place_json(instance.map(), {}, {.place = task.cell})},
-                   {"agents", ids}};
+                   {"agents", agents_json(instance, task)}};
+  if (!task.needs_all()) json["need"] = task.need;
   if (task.duration > 0) json["duration"] = task.duration;
   return json;
 }

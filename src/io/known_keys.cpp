@@ -32,9 +32,7 @@ constexpr std::array kUnmodelled{
     Unmodelled{"due", "deadlines"},
     Unmodelled{"finish_by", "deadlines"},
     Unmodelled{"footprint", "the size of robots"},
-    Unmodelled{"goals", "a choice of goals"},
     Unmodelled{"jobs", "jobs"},
-    Unmodelled{"need", "tasks that only some of their agents visit"},
     Unmodelled{"objective", "objectives other than the sum of costs"},
     Unmodelled{"precedence", "an order among tasks"},
     Unmodelled{"priority", "priorities"},
@@ -56,6 +54,7 @@ const KnownObject& agent_keys() {
                                  {{"id", nullptr, {"name"}},
                                   {"start", nullptr, {"position", "location", "from", "source"}},
                                   {"goal", nullptr, {"target", "destination", "dest", "to", "end"}},
+                                  {"goals", nullptr, {"targets", "destinations", "potentialGoals"}},
                                   {"motion"},
                                   {"turn_steps"},
                                   {"heading", nullptr, {"orientation", "theta", "direction"}},
@@ -64,11 +63,20 @@ const KnownObject& agent_keys() {
   return known;
 }
 
+const KnownObject& task_keys() {
+  static const KnownObject known = [] {
+    KnownObject keys = new_task_keys();
+    keys.keys.push_back({"need", nullptr, {"needs", "required", "visits"}});
+    return keys;
+  }();
+  return known;
+}
+
 KnownObject robots_of(std::string_view name, Words worlds) {
   KnownObject known{name, {}};
   for (const std::string_view world : worlds) known.keys.push_back({world});
   known.keys.push_back({"agents", &agent_keys(), {"robots", "vehicles"}});
-  known.keys.push_back({"tasks", &new_task_keys()});
+  known.keys.push_back({"tasks", &task_keys()});
   return known;
 }
 

@@ -112,6 +112,7 @@ class AgentCheck {
              const AgentPlan& plan, ViolationReport& report)
       : instance_(instance),
         steps_(steps),
+        index_(index),
         agent_(instance.agent(index)),
         plan_(plan),
         report_(report),
@@ -184,7 +185,9 @@ class AgentCheck {
         if (before.task == work.task)
           report_.add(place, "agent '{}' does task '{}' a second time; expected each once",
                       agent_.id, instance_.task(work.task).id);
-        else if (before.begin < work.end && work.begin < before.end)
+        else if (instance_.task(before.task).duration > 0 &&
+                 instance_.task(work.task).duration > 0 && before.begin < work.end &&
+                 work.begin < before.end)
           report_.add(place, "agent '{}' works on tasks '{}' and '{}' at the same time", agent_.id,
                       instance_.task(before.task).id, instance_.task(work.task).id);
       }
@@ -202,10 +205,10 @@ class AgentCheck {
 
   void check_piece(const std::string& place, const WorkTime& work) {
     const Task& task = instance_.task(work.task);
-    if (std::ranges::count(agent_.tasks, work.task) == 0 || task.duration == 0) {
+    if (std::ranges::count(task.agents, index_) == 0 || !is_told(task)) {
       report_.add(place,
                   "task '{}' is no work of agent '{}'; expected one of its own that takes "
-                  "time",
+                  "time, or that not all its agents must visit",
                   task.id, agent_.id);
       return;
     }
@@ -244,20 +247,44 @@ class AgentCheck {
     if (agent_.goal && end.place != *agent_.goal)
       report_.add(place, "agent '{}' ends on {}; expected its goal {}", agent_.id,
                   steps_.name(end.place), steps_.name(*agent_.goal));
+    else if (!agent_.goals.empty() && std::ranges::count(agent_.goals, end.place) == 0)
+      report_.add(place, "agent '{}' ends on {}; expected one of its goals", agent_.id,
+                  steps_.name(end.place));
     else if (agent_.goal_heading && (end.heading != *agent_.goal_heading || end.steps > 0))
       report_.add(place, "agent '{}' ends on {}; expected heading {}", agent_.id, name(end),
                   letter(*agent_.goal_heading));
+    if (!agent_.goal && agent_.goals.empty()) check_end_without_destination(place, end);
+  }
+
+  void check_end_without_destination(const std::string& place, const Pose& end) {
     const auto is_here = [&](TaskIndex task) { return instance_.task(task).cell == end.place; };
-    if (!agent_.goal && !agent_.tasks.empty() && std::ranges::none_of(agent_.tasks, is_here))
+    const std::vector<TaskIndex> visited = own_tasks();
+    if (!agent_.tasks.empty() && std::ranges::none_of(visited, is_here))
       report_.add(place, "agent '{}' ends on {}; expected one of its own tasks", agent_.id,
                   steps_.name(end.place));
+    if (agent_.tasks.empty() && !agent_.options.empty() && end.steps > 0)
+      report_.add(place, "agent '{}' ends on {}; expected the end of the turn", agent_.id,
+                  name(end));
+  }
+
+  // The tasks that the agent must visit, and those that it visits by choice.
+  std::vector<TaskIndex> own_tasks() const {
+    std::vector<TaskIndex> tasks = agent_.tasks;
+    for (const WorkTime& work : plan_.work)
+      if (std::ranges::count(tasks, work.task) == 0) tasks.push_back(work.task);
+    return tasks;
+  }
+
+  // Must a plan state the visits of this task?
+  static bool is_told(const Task& task) {
+    return task.duration > 0 || task.need < static_cast<int>(task.agents.size());
   }
 
   // The earliest time >= `begin` at which the agent visits the task or completes its execution.
   // Returns nullopt if there is no such time.
   std::optional<Time> visit(TaskIndex index, Time begin) const {
     const Task& task = instance_.task(index);
-    if (task.duration > 0) {
+    if (is_told(task)) {
       const auto work = std::ranges::find(plan_.work, index, &WorkTime::task);
       if (work == plan_.work.end() || work->end < begin) return std::nullopt;
       return work->end;
@@ -273,15 +300,15 @@ class AgentCheck {
     for (TaskIndex index : agent_.tasks) {
       const Task& task = instance_.task(index);
       if (!visit(index, 0))
-        report_.add(place_ + (task.duration > 0 ? "/work" : "/path"),
+        report_.add(place_ + (is_told(task) ? "/work" : "/path"),
                     "agent '{}' never {} its task '{}' on {}", agent_.id,
-                    task.duration > 0 ? "does" : "visits", task.id, steps_.name(task.cell));
+                    is_told(task) ? "does" : "visits", task.id, steps_.name(task.cell));
     }
   }
 
   void check_sequence() {
     const std::string place = place_ + "/sequence";
-    if (!std::ranges::is_permutation(plan_.sequence, agent_.tasks)) {
+    if (!std::ranges::is_permutation(plan_.sequence, own_tasks())) {
       report_.add(place, "expected every task of agent '{}' exactly once", agent_.id);
       return;
     }
@@ -302,10 +329,12 @@ class AgentCheck {
   }
 
   // Checks that an agent without a destination ends on the last task of its sequence. This does not
-  // apply if one of its tasks takes time, because such a task cannot be executed again at the end.
+  // apply to an idle agent, or if the plan states one of the visits, because such a visit cannot be
+  // repeated at the end.
   void check_last_task(const std::string& place) {
-    const auto takes_time = [&](TaskIndex task) { return instance_.task(task).duration > 0; };
-    if (agent_.goal || plan_.sequence.empty() || std::ranges::any_of(agent_.tasks, takes_time))
+    const bool has_destination = agent_.goal || !agent_.goals.empty();
+    const auto told = [&](TaskIndex task) { return is_told(instance_.task(task)); };
+    if (has_destination || plan_.sequence.empty() || std::ranges::any_of(plan_.sequence, told))
       return;
     const Task& last = instance_.task(plan_.sequence.back());
     if (poses_.back().place != last.cell)
@@ -327,6 +356,7 @@ class AgentCheck {
 
   const Instance& instance_;
   const AllowedSteps& steps_;
+  const AgentIndex index_;
   const Agent& agent_;
   const AgentPlan& plan_;
   ViolationReport& report_;

@@ -6,6 +6,7 @@
 //   sequence, cost.
 // - Collisions: all agents advance step by step, on a table with the agent on each place. The
 //   effort is O(agents * time), instead of O(agents^2 * time) for comparing all pairs of paths.
+// - Needs: each task is visited by as many agents as it needs.
 // - Claims: the plan's cost is the sum of the agents' finish times, the lower bound is from 0 to
 //   this sum, and the status follows from cost, lower bound and omega.
 // Collisions and claims are not checked if check_agent() returns nullopt for an agent.
@@ -133,6 +134,21 @@ std::optional<Cost> check_agents(const Instance& instance, const AllowedSteps& s
   return total;
 }
 
+// Checks that each task with a choice of agents is visited by as many different agents as it needs.
+// (A task that needs all its agents is checked agent by agent.)
+void check_needs(const Instance& instance, const Plan& plan, ViolationReport& report) {
+  std::vector<std::set<AgentIndex>> visitors(instance.tasks().size());
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i)
+    for (const WorkTime& work : plan.agents[i].work) visitors[work.task].insert(i);
+  for (TaskIndex i = 0; i < instance.task_count(); ++i) {
+    const Task& task = instance.task(i);
+    const std::size_t need = static_cast<std::size_t>(task.need);
+    if (need < task.agents.size() && visitors[i].size() < need)
+      report.add("/agents", "task '{}' is visited by {} of its agents; expected at least {}",
+                 task.id, visitors[i].size(), need);
+  }
+}
+
 // The status that follows from a plan's cost and the claimed lower bound. Precondition: lower_bound
 // <= cost.
 Status deserved_status(Cost cost, Cost lower_bound, Omega omega) {
@@ -177,6 +193,7 @@ std::vector<Violation> check(const Instance& instance, const Solution& solution,
   if (const auto cost = check_agents(instance, steps, plan, report)) {
     CollisionCheck(instance, steps, plan, instance.may_follow() && solution.may_follow, report)
         .run();
+    check_needs(instance, plan, report);
     check_claims(solution, *cost, report);
   }
   return report.take();

@@ -3,14 +3,15 @@
 // first.
 //
 // For a given type of map, the sequence of numbers determines everything that the fingerprint
-// covers: each list follows its length, and kOptional, which differs from all places and lengths,
-// precedes data that only some tasks and agents have.
+// covers: each list follows its length, and kOptional or kChoice, which differ from all places and
+// lengths, precede data that only some tasks and agents have.
 #include "model/fingerprint.h"
 
 namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kOptional = -2;
+constexpr std::int64_t kChoice = -3;
 
 class Fnv1a {
  public:
@@ -43,6 +44,12 @@ void add(const Roadmap& roadmap, Fnv1a& hash) {
   }
 }
 
+template <typename List>
+void add_list(const List& list, Fnv1a& hash) {
+  hash.add(static_cast<std::int64_t>(list.size()));
+  for (const auto item : list) hash.add(item);
+}
+
 }  // namespace
 
 std::uint64_t fingerprint(const Instance& instance) {
@@ -55,6 +62,10 @@ std::uint64_t fingerprint(const Instance& instance) {
       hash.add(kOptional);
       hash.add(task.duration);
     }
+    if (!task.needs_all()) {
+      hash.add(kChoice);
+      hash.add(task.need);
+    }
   }
   hash.add(instance.agent_count());
   for (const Agent& agent : instance.agents()) {
@@ -65,8 +76,12 @@ std::uint64_t fingerprint(const Instance& instance) {
       hash.add(agent.motion.turn_steps);
       hash.add(agent.goal_heading ? static_cast<std::int64_t>(*agent.goal_heading) : -1);
     }
-    hash.add(static_cast<std::int64_t>(agent.tasks.size()));
-    for (const TaskIndex task : agent.tasks) hash.add(task);
+    add_list(agent.tasks, hash);
+    if (agent.has_choice()) {
+      hash.add(kChoice);
+      add_list(agent.goals, hash);
+      add_list(agent.options, hash);
+    }
   }
   if (!instance.may_follow()) hash.add(1);
   return hash.hash();

@@ -14,12 +14,15 @@ namespace {
 bool references_agree(const Instance& instance) {
   std::size_t named = 0;
   std::size_t held = 0;
-  for (TaskIndex task = 0; task < instance.task_count(); ++task) {
-    for (const AgentIndex agent : instance.task(task).agents)
-      if (std::ranges::count(instance.agent(agent).tasks, task) != 1) return false;
-    named += instance.task(task).agents.size();
+  for (TaskIndex index = 0; index < instance.task_count(); ++index) {
+    const Task& task = instance.task(index);
+    for (const AgentIndex agent : task.agents) {
+      const Agent& a = instance.agent(agent);
+      if (!std::ranges::binary_search(task.needs_all() ? a.tasks : a.options, index)) return false;
+    }
+    named += task.agents.size();
   }
-  for (const Agent& agent : instance.agents()) held += agent.tasks.size();
+  for (const Agent& agent : instance.agents()) held += agent.tasks.size() + agent.options.size();
   return named == held;
 }
 
@@ -35,7 +38,12 @@ Instance::Instance(std::shared_ptr<const Map> map) : map_(std::move(map)), world
 
 AgentSpec Instance::spec(AgentIndex agent) const {
   const Agent& a = agents_[agent];
-  AgentSpec spec{a.id, pose_of(a.start), a.goal, a.motion, a.goal_heading, {}};
+  AgentSpec spec{.id = a.id,
+                 .start = pose_of(a.start),
+                 .goal = a.goal,
+                 .motion = a.motion,
+                 .goal_heading = a.goal_heading,
+                 .goals = a.goals};
   if (world_->is_working(a.start)) {
     const Work& work = world_->work(a.start);
     spec.working = WorkBegun{tasks_[work.task].id, work.done};
@@ -43,9 +51,13 @@ AgentSpec Instance::spec(AgentIndex agent) const {
   return spec;
 }
 
+bool Instance::has_choices() const {
+  return std::ranges::any_of(agents_, &Agent::has_choice);
+}
+
 bool Instance::rests_on_last_stop(AgentIndex agent) const {
   const Agent& a = agents_[agent];
-  return !a.goal && !a.tasks.empty() &&
+  return !a.has_destination() && !a.tasks.empty() &&
          std::ranges::all_of(a.tasks, [&](TaskIndex t) { return tasks_[t].duration == 0; });
 }
 
@@ -53,9 +65,10 @@ bool Instance::may_rest(AgentIndex agent, State state) const {
   const Agent& a = agents_[agent];
   if (a.is_idle()) return true;
   const Place place = world_->place(state);
-  if (!a.goal)
+  if (!a.has_destination())
     return std::ranges::any_of(a.tasks, [&](TaskIndex t) { return tasks_[t].cell == place; });
-  if (place != *a.goal || !a.goal_heading) return place == *a.goal;
+  const bool is_there = a.goal ? place == *a.goal : std::ranges::count(a.goals, place) > 0;
+  if (!is_there || !a.goal_heading) return is_there;
   const State base = world_->base(state);
   if (world_->kind(base) != a.kind) return false;
   const Pose pose = motion_world_->pose(base);
@@ -72,10 +85,10 @@ std::vector<State> Instance::states_visiting(TaskIndex task) const {
 
 std::vector<State> Instance::states_to_rest(AgentIndex agent) const {
   const Agent& a = agents_[agent];
-  std::vector<Place> places;
+  std::vector<Place> places = a.goals;
   if (a.goal) places.push_back(*a.goal);
   for (const TaskIndex task : a.tasks)
-    if (!a.goal) places.push_back(tasks_[task].cell);
+    if (!a.has_destination()) places.push_back(tasks_[task].cell);
   std::ranges::sort(places);
   places.erase(std::unique(places.begin(), places.end()), places.end());
   std::vector<State> states;
@@ -110,6 +123,12 @@ InstanceBuilder InstanceBuilder::like(const Instance& instance) {
   InstanceBuilder builder(instance.shared_map());
   if (!instance.may_follow()) builder.forbid_following();
   return builder;
+}
+
+std::vector<std::string> InstanceBuilder::agent_ids() const {
+  std::vector<std::string> ids;
+  for (const Agent& agent : instance_.agents_) ids.push_back(agent.id);
+  return ids;
 }
 
 std::string InstanceBuilder::name(Place place) const {
@@ -149,6 +168,8 @@ AgentIndex InstanceBuilder::add_agent(AgentSpec spec) {
     const Grid& grid = instance_.grid();
     passable_cell("start", grid.position(from));
     if (spec.goal) passable_cell("goal", grid.position(*spec.goal));
+    for (std::size_t k = 0; k < spec.goals.size(); ++k)
+      passable_cell(fmt::format("goals/{}", k), grid.position(spec.goals[k]));
   }
   if (const auto it = agent_by_start_.find(from); it != agent_by_start_.end())
     throw InstanceError(
@@ -160,13 +181,17 @@ AgentIndex InstanceBuilder::add_agent(AgentSpec spec) {
           "goal", fmt::format("{} is already the goal of agent '{}'; expected distinct goals",
                               name(*spec.goal), instance_.agent(it->second).id));
   }
+  require_choice_of_goals(spec);
 
   if (spec.start.steps != 0 && (spec.start.steps < 0 || spec.start.steps >= spec.motion.turn_steps))
     throw InstanceError("start", fmt::format("found {} steps of a turn of {} steps; expected fewer",
                                              spec.start.steps, spec.motion.turn_steps));
 
-  Agent agent{
-      .id = spec.id, .goal = spec.goal, .goal_heading = spec.goal_heading, .motion = spec.motion};
+  Agent agent{.id = spec.id,
+              .goal = spec.goal,
+              .goals = spec.goals,
+              .goal_heading = spec.goal_heading,
+              .motion = spec.motion};
   if (spec.motion.turn_steps > 0) {
     const auto known = std::ranges::find(motions_, spec.motion) - motions_.begin();
     if (known == std::ssize(motions_)) motions_.push_back(spec.motion);
@@ -181,22 +206,39 @@ AgentIndex InstanceBuilder::add_agent(AgentSpec spec) {
   return index;
 }
 
+void InstanceBuilder::require_choice_of_goals(const AgentSpec& spec) const {
+  if (spec.goal && !spec.goals.empty())
+    throw InstanceError("goals", "found both 'goal' and 'goals'; expected one of them");
+  for (std::size_t k = 0; k < spec.goals.size(); ++k)
+    if (std::ranges::count(std::span(spec.goals).first(k), spec.goals[k]) > 0)
+      throw InstanceError(
+          fmt::format("goals/{}", k),
+          fmt::format("{} is listed twice; expected each place once", name(spec.goals[k])));
+}
+
 TaskIndex InstanceBuilder::add_task(std::string id, Position cell,
-                                    std::span<const std::string> agent_ids, Time duration) {
+                                    std::span<const std::string> agent_ids, Time duration,
+                                    std::optional<int> need) {
   require_new_id(id, !task_by_id_.contains(id));
   const Cell place = passable_cell("cell", cell);
-  return add_task(std::move(id), place, agent_ids, duration);
+  return add_task(std::move(id), place, agent_ids, duration, need);
 }
 
 TaskIndex InstanceBuilder::add_task(std::string id, Place place,
-                                    std::span<const std::string> agent_ids, Time duration) {
+                                    std::span<const std::string> agent_ids, Time duration,
+                                    std::optional<int> need) {
   require_new_id(id, !task_by_id_.contains(id));
   if (instance_.is_on_grid()) passable_cell("cell", instance_.grid().position(place));
-  Task task{std::move(id), place, {}, duration};
+  const int agents = static_cast<int>(agent_ids.size());
+  Task task{std::move(id), place, {}, duration, need.value_or(agents)};
   if (duration < 0 || duration > kMaxDuration)
     throw InstanceError("duration",
                         fmt::format("found {} steps; expected 0 to {}", duration, kMaxDuration));
   if (agent_ids.empty()) throw InstanceError("agents", "expected at least one agent");
+  if (task.need < 1 || task.need > agents)
+    throw InstanceError("need",
+                        fmt::format("found {}; expected 1 to {}, the number of agents of the task",
+                                    task.need, agents));
 
   for (std::size_t k = 0; k < agent_ids.size(); ++k) {
     const std::string field = fmt::format("agents/{}", k);
@@ -208,15 +250,18 @@ TaskIndex InstanceBuilder::add_task(std::string id, Place place,
     if (std::ranges::find(task.agents, it->second) != task.agents.end())
       throw InstanceError(
           field, fmt::format("agent '{}' is listed twice; expected each agent once", agent_ids[k]));
-    if (instance_.agent(it->second).tasks.size() >= kMaxTasksPerAgent)
+    if (task.need == agents && instance_.agent(it->second).tasks.size() >= kMaxTasksPerAgent)
       throw InstanceError(
-          field, fmt::format("agent '{}' has more than {} tasks; expected at most {}", agent_ids[k],
-                             kMaxTasksPerAgent, kMaxTasksPerAgent));
+          field, fmt::format("agent '{}' must visit more than {} tasks; expected at most {}",
+                             agent_ids[k], kMaxTasksPerAgent, kMaxTasksPerAgent));
     task.agents.push_back(it->second);
   }
 
   const auto index = static_cast<TaskIndex>(instance_.tasks_.size());
-  for (AgentIndex agent : task.agents) instance_.agents_[agent].tasks.push_back(index);
+  for (AgentIndex index_of_agent : task.agents) {
+    Agent& agent = instance_.agents_[index_of_agent];
+    (task.needs_all() ? agent.tasks : agent.options).push_back(index);
+  }
   task_by_id_.emplace(task.id, index);
   instance_.tasks_.push_back(std::move(task));
   return index;

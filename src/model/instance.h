@@ -20,31 +20,45 @@ namespace grove::detail {
 
 using AgentIndex = std::int32_t;  // position in Instance::agents()
 
-// The maximum number of tasks per agent. Sets of an agent's tasks are 64-bit masks.
+// The maximum number of tasks that an agent must visit. Sets of these are 64-bit masks.
 inline constexpr int kMaxTasksPerAgent = 64;
 
+// An agent has at most one of `goal` and `goals`. Each vector of tasks is in ascending order.
 struct Agent {
   std::string id;
   State start = kNoState;
-  std::optional<Place> goal;            // the destination; nullopt: none (MG-MAPF or idle agent)
+  std::optional<Place> goal;            // the destination; nullopt: none or a choice
+  std::vector<Place> goals = {};        // the places of which it chooses its destination
   std::optional<Heading> goal_heading;  // the heading at rest; nullopt: any heading
   Motion motion = {};
-  int kind = 0;                       // kind of the agent's base states (world.h)
-  std::vector<TaskIndex> tasks = {};  // in ascending order of index
+  int kind = 0;                         // kind of the agent's base states (world.h)
+  std::vector<TaskIndex> tasks = {};    // tasks that it must visit
+  std::vector<TaskIndex> options = {};  // further tasks that it may visit
   // The tasks that the search must order, a subsequence of `tasks`. Of the agent's tasks on one
   // place, the stops are those that take time or, if none does, one of them. When an agent
   // visits its stops on a place, it also visits its other tasks there.
   std::vector<TaskIndex> stops = {};
 
-  // True for an agent with neither a destination nor tasks. It may rest anywhere.
-  bool is_idle() const { return !goal && tasks.empty(); }
+  bool has_destination() const { return goal || !goals.empty(); }
+  // True for an agent with neither a destination nor tasks that it must visit. It may rest
+  // anywhere.
+  bool is_idle() const { return !has_destination() && tasks.empty(); }
+  // True if the agent may choose its destination, or whether to visit a task.
+  bool has_choice() const { return !goals.empty() || !options.empty(); }
 };
 
 struct Task {
   std::string id;
   Place cell = kNoPlace;
-  std::vector<AgentIndex> agents;  // each of these agents must visit the task
+  std::vector<AgentIndex> agents;  // the agents that must or may visit the task
   Time duration = 0;               // of its execution, in steps
+  int need = 0;                    // at least this many of `agents` must visit it; 1 or more
+
+  // True if each of `agents` must visit the task.
+  bool needs_all() const { return need == static_cast<int>(agents.size()); }
+  // True if a plan states each visit explicitly (AgentPlan::work). Otherwise an agent visits the
+  // task by being on its place.
+  bool is_told() const { return duration > 0 || !needs_all(); }
 };
 
 // Execution of a task that an agent began before time 0: the task's id, and the number of steps
@@ -55,7 +69,8 @@ struct WorkBegun {
 };
 
 // Description of an agent for InstanceBuilder::add_agent(). If the agent turns freely, only the
-// place of `start` is used. `goal_heading` requires `goal` and an agent whose turns take time.
+// place of `start` is used. `goal_heading` requires `goal` or `goals`, and an agent whose turns
+// take time.
 struct AgentSpec {
   std::string id;
   Pose start;
@@ -63,6 +78,7 @@ struct AgentSpec {
   Motion motion = {};
   std::optional<Heading> goal_heading = {};
   std::optional<WorkBegun> working = {};
+  std::vector<Place> goals = {};  // requires that `goal` is nullopt
 };
 
 // Thrown for an instance that violates a rule of docs/design.md, section 1. field() names the
@@ -99,6 +115,8 @@ class Instance {
   const Task& task(TaskIndex i) const { return tasks_[i]; }
   int agent_count() const { return static_cast<int>(agents_.size()); }
   int task_count() const { return static_cast<int>(tasks_.size()); }
+  // True if an agent may choose its destination, or whether to visit a task.
+  bool has_choices() const;
   // True (the default) if an agent may enter a place in the step in which another agent leaves it.
   bool may_follow() const { return may_follow_; }
   // A copy of this instance in which following is forbidden, for robots that occupy a place until
@@ -130,7 +148,9 @@ class Instance {
     const Work& work = world_->work(state);
     return work.task == task && work.completed;
   }
-  // True if the agent may rest in `state` once it has visited all its tasks.
+  // True if the agent may rest in `state` once it has visited all tasks that it must visit. (An
+  // agent without a destination may also rest on the place of an optional task that it has
+  // visited.)
   bool may_rest(AgentIndex agent, State state) const;
   // states_visiting(): all states in which is_visited() is true. states_to_rest(): all states in
   // which may_rest() is true; empty for an idle agent, which may rest in any state.
@@ -139,8 +159,8 @@ class Instance {
   // True if the agent rests on the last stop of its sequence: if it has tasks but no destination,
   // and none of its tasks takes time, so that it can visit a task once more at the end.
   bool rests_on_last_stop(AgentIndex agent) const;
-  // All tasks of the agent, in the order in which it visits them if it visits its stops in the
-  // order `stops` (positions in Agent::stops).
+  // All tasks that the agent must visit, in the order in which it visits them if it visits its
+  // stops in the order `stops` (positions in Agent::stops).
   std::vector<TaskIndex> tasks_in_order(AgentIndex agent,
                                         std::span<const std::uint8_t> stops) const;
 
@@ -167,12 +187,15 @@ class InstanceBuilder {
   static InstanceBuilder like(const Instance& instance);
   const Map& map() const { return instance_.map(); }
   const Roadmap* roadmap() const { return instance_.roadmap(); }
+  // The ids of the agents added so far, in order.
+  std::vector<std::string> agent_ids() const;
 
   void forbid_following() { instance_.may_follow_ = false; }
 
   // Adds an agent on a grid. Throws InstanceError for an empty or repeated id, and for a start or
   // goal that is outside the grid or blocked, or that another agent has as its start or goal,
-  // respectively.
+  // respectively; also for a repeated place in `goals`. Different agents may have the same place
+  // in their `goals`.
   AgentIndex add_agent(std::string id, Position start, std::optional<Position> goal);
   // Adds an agent on any map, with the same checks. Precondition on a roadmap: the places exist.
   AgentIndex add_agent(std::string id, Place start, std::optional<Place> goal);
@@ -180,12 +203,14 @@ class InstanceBuilder {
 
   // Adds a task on a grid. Throws InstanceError for: an empty or repeated id; a cell that is
   // outside the grid or blocked; an empty list of agents, an unknown or repeated agent, or an agent
-  // that already has kMaxTasksPerAgent tasks; a duration that is not in 0, ..., kMaxDuration.
+  // that must already visit kMaxTasksPerAgent tasks; a duration that is not in 0, ...,
+  // kMaxDuration; a need that is not in 1, ..., the number of agents. Without `need`, all agents
+  // must visit the task.
   TaskIndex add_task(std::string id, Position cell, std::span<const std::string> agent_ids,
-                     Time duration = 0);
+                     Time duration = 0, std::optional<int> need = {});
   // Adds a task on any map, with the same checks. Precondition on a roadmap: the place exists.
   TaskIndex add_task(std::string id, Place place, std::span<const std::string> agent_ids,
-                     Time duration = 0);
+                     Time duration = 0, std::optional<int> need = {});
 
   // The maximum duration of a task or a quarter turn, in steps.
   static constexpr Time kMaxDuration = 1 << 16;
@@ -199,6 +224,7 @@ class InstanceBuilder {
  private:
   Cell passable_cell(const std::string& field, Position p) const;
   std::string name(Place place) const;
+  void require_choice_of_goals(const AgentSpec& spec) const;
   void choose_stops(Agent& agent) const;
   void require_work(AgentIndex agent, const WorkBegun& begun) const;
   void make_world();

@@ -193,8 +193,9 @@ TEST_F(InstanceFile, RefusesWrongTypes) {
             "i.json: /agents/0/start: found an array; expected a cell [x, y]");
   EXPECT_EQ(refused_agent(R"({"id": "a", "start": [0, 0], "goal": null})"),
             "i.json: /agents/0/goal: found null; expected a cell [x, y]");
-  EXPECT_EQ(refused_tasks(R"([{"id": "t", "cell": [2, 1], "agents": "a"}])"),
-            "i.json: /tasks/0/agents: found \"a\"; expected an array");
+  EXPECT_EQ(
+      refused_tasks(R"([{"id": "t", "cell": [2, 1], "agents": "a"}])"),
+      "i.json: /tasks/0/agents: found \"a\"; expected a list of ids, or \"*\" for all agents");
   EXPECT_EQ(refused_tasks(R"([{"id": "t", "cell": [2, 1], "agents": [true]}])"),
             "i.json: /tasks/0/agents/0: found true; expected a string");
 }

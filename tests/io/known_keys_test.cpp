@@ -134,19 +134,14 @@ TEST_F(KnownKeys, CloseKeyIsSuggested) {
   // The similar key is already used, so the message does not suggest it.
   EXPECT_EQ(
       refused_member(kInstance, 1, R"("gaol": [1, 1])"),
-      "f: /agents/0: unknown key 'gaol'; expected one of id, start, goal, motion, turn_steps, "
-      "heading, goal_heading, working, or a name that begins with '_', for a remark");
+      "f: /agents/0: unknown key 'gaol'; expected one of id, start, goal, goals, motion, "
+      "turn_steps, heading, goal_heading, working, or a name that begins with '_', for a remark");
 }
 
 TEST_F(KnownKeys, UnsupportedFeaturesAreNamed) {
   const std::vector<std::vector<std::string>> of_tasks{
-      {"deadline", "deadlines"},
-      {"deadlines", "deadlines"},
-      {"priority", "priorities"},
-      {"capacity", "capacities"},
-      {"need", "tasks that only some of their agents visit"},
-      {"after", "an order among tasks"},
-      {"window", "time windows"}};
+      {"deadline", "deadlines"},  {"deadlines", "deadlines"},        {"priority", "priorities"},
+      {"capacity", "capacities"}, {"after", "an order among tasks"}, {"window", "time windows"}};
   const auto message = [](const std::string& key, const std::string& what) {
     return "unknown key '" + key + "'; Grove does not model " + what + "; expected no such key";
   };
@@ -156,8 +151,9 @@ TEST_F(KnownKeys, UnsupportedFeaturesAreNamed) {
     EXPECT_EQ(refused("tasks", with(kNewTasks, 1, '"' + each[0] + "\": 1")),
               "f: /tasks/0: " + message(each[0], each[1]));
   }
-  EXPECT_EQ(refused_member(kInstance, 1, R"("goals": [[1, 1]])"),
-            "f: /agents/0: " + message("goals", "a choice of goals"));
+  EXPECT_EQ(refused("tasks", with(kNewTasks, 1, R"("need": 1)")),
+            "f: /tasks/0: unknown key 'need'; expected one of id, cell, agents, duration, or a "
+            "name that begins with '_', for a remark");
   EXPECT_EQ(refused_member(kInstance, 1, R"("finish_by": 9)"),
             "f: /agents/0: " + message("finish_by", "deadlines"));
   EXPECT_EQ(refused_member(kInstance, 0, R"("objective": "makespan")"),

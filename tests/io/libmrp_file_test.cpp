@@ -248,10 +248,11 @@ TEST_F(LibmrpFile, SurvivesDeepNesting) {
 TEST_F(LibmrpFile, RefusesMoreThan64GoalsWithThePlace) {
   std::string goals;
   for (int x = 1; x <= 65; ++x) goals += "      - [" + std::to_string(x) + ", 0]\n";
-  EXPECT_EQ(refused("map:\n  dimensions: [70, 1]\n  obstacles: []\nagents:\n  - name: a\n"
-                    "    start: [0, 0]\n    goals:\n" +
-                    goals),
-            "i.yaml: line 72, column 9: agent 'a' has more than 64 tasks; expected at most 64");
+  EXPECT_EQ(
+      refused("map:\n  dimensions: [70, 1]\n  obstacles: []\nagents:\n  - name: a\n"
+              "    start: [0, 0]\n    goals:\n" +
+              goals),
+      "i.yaml: line 72, column 9: agent 'a' must visit more than 64 tasks; expected at most 64");
 }
 
 TEST_F(LibmrpFile, UnrepresentableInstancesAreNotWritten) {

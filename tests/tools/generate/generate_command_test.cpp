@@ -366,7 +366,7 @@ TEST(GenerateCommand, RefusesTooLargeCountsAndWritesNothing) {
       said("instance --map my.map --agents 50 --tasks 51 -o x"),
       "my.map: has 100 connected passable cells; expected at least 101 for 50 agents and 51 tasks");
   EXPECT_EQ(said("instance --map my.map --agents 1 --tasks 70 -o x"),
-            "my.map: 70 tasks for 1 agents do not fit: agent 'a0' has more than 64 tasks; expected "
+            "my.map: 70 tasks for 1 agents do not fit: agent 'a0' must visit more than 64 tasks; expected "
             "at most 64");
   EXPECT_EQ(said("dataset --map my.map --scen my.scen --agents 5 --tasks 10,30 --output-dir set")
                 .substr(0, 21),

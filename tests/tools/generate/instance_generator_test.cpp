@@ -170,7 +170,7 @@ TEST(GenerateInstance, RefusesTooLargeCounts) {
   EXPECT_EQ(refused(scenario(25), {.agents = 5, .tasks = 6}),
             "m.scen: has 25 rows, enough for 5 of 6 tasks; they are taken from row 21 on");
   EXPECT_EQ(refused(scenario(), {.agents = 1, .tasks = 70}),
-            "m.scen: 70 tasks for 1 agents do not fit: agent 'a0' has more than 64 tasks; expected "
+            "m.scen: 70 tasks for 1 agents do not fit: agent 'a0' must visit more than 64 tasks; expected "
             "at most 64");
   Scenario outside = scenario();
   outside.rows[1].goal = {99, 0};
