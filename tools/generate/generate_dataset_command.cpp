@@ -9,6 +9,7 @@
 #include <set>
 
 #include "io/input_error.h"
+#include "tools/generate/choices_arguments.h"
 #include "tools/generate/extras_arguments.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/generate/generate_set.h"
@@ -21,7 +22,8 @@ namespace fs = std::filesystem;
 constexpr const char* kDatasetFooter =
     R"(Each instance is the one that 'grove generate instance' makes with the same seed. Files are named
 MAP_sS_nN_mM.cts.json (S: the number at the end of the scenario's name, N agents, M tasks), with a
-suffix for each extra: _turning, or _turningD if a turn takes D > 1 steps, _headings, _dA-B, _mg.
+suffix for each extra: _turning, or _turningD if a turn takes D > 1 steps, _headings, _dA-B; _needK
+or _needKofN, _anygoal, _goalsK, _groupsG, each with its share, if below 1, in percent (-50pc); _mg.
 manifest.txt lists them.
 
 Example, the paper's room cells:
@@ -37,6 +39,7 @@ struct DatasetArguments {
   std::int64_t seed = 0;
   bool mg = false;
   ExtrasArguments extras;
+  ChoicesArguments choices;
   std::string output_dir;
 };
 
@@ -78,12 +81,14 @@ std::vector<NumberedScenario> draw_scenarios(const DatasetArguments& arguments, 
 
 void run(const DatasetArguments& arguments) {
   const Extras extras = arguments.extras.extras(!arguments.mg);
+  const Choices choices =
+      arguments.choices.choices(std::ranges::min(arguments.agents), !arguments.mg);
   const Grid grid = load_map(arguments.map);
   const std::vector<MapSet> maps{{arguments.map, grid,
                                   arguments.scenario_files.empty()
                                       ? draw_scenarios(arguments, grid)
                                       : load_scenarios(arguments, grid)}};
-  const SetSizes sizes{arguments.agents, arguments.tasks, {arguments.mg}, extras};
+  const SetSizes sizes{arguments.agents, arguments.tasks, {arguments.mg}, extras, choices};
   // Checks all combinations before the first file is written, so that no incomplete set remains.
   require_fitting(maps, sizes);
   write_set(arguments.output_dir, maps, sizes);
@@ -107,6 +112,7 @@ void add_generate_dataset_command(CLI::App& generate) {
   add_integer(*command, "--seed", arguments->seed, kSeeds, "seed of all random choices");
   command->add_flag("--mg", arguments->mg, "make MG-MAPF instances: agents without destinations");
   arguments->extras.add_to(*command);
+  arguments->choices.add_to(*command);
   command
       ->add_option("--output-dir", arguments->output_dir, "folder to write to; created if missing")
       ->required()

@@ -8,6 +8,7 @@
 #include "io/atomic_file.h"
 #include "io/instance_file.h"
 #include "io/roadmap_file.h"
+#include "tools/generate/choices_arguments.h"
 #include "tools/generate/extras_arguments.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/generate/roadmap_instance.h"
@@ -46,10 +47,19 @@ On a roadmap, all is drawn in the largest strongly connected part: distinct star
 and tasks on distinct vertices where no agent starts, given to agents as above. A robot at rest on a
 dead end, such as a parking bay, does not block other robots.
 
+Without options for choices each of the 1, 2 or 3 agents of a task must visit it, and each agent
+ends on its own destination. With --need K any K of all agents that can reach the task visit it, or
+K of N random ones with --eligible N. With --any-goal, --goal-choices or --goal-groups an agent
+chooses its destination. --need-share and --goal-share draw the tasks and the agents with a choice:
+a share of 0.5 of 30 tasks is 15 of them. With --mg there are no destinations to choose; --need does
+not apply to the task that replaces a destination. Choices change nothing else in the instance.
+
 Examples:
   grove generate instance --map my.map --agents 10 --tasks 30 --seed 1 -o my.cts.json
   grove generate instance --map my.map --agents 10 --tasks 30 --turning --durations 0-10 \
         -o my_turning.cts.json
+  grove generate instance --map my.map --agents 12 --tasks 40 --need 1 -o any_robot.cts.json
+  grove generate instance --map my.map --agents 50 --tasks 0 --any-goal -o targets.cts.json
   grove generate instance --roadmap depot.roadmap.json --tasks-on a --agents 100 --tasks 300 \
         -o depot.cts.json)";
 
@@ -64,6 +74,7 @@ struct NewInstanceArguments {
   std::int64_t seed = 0;
   bool mg = false;
   ExtrasArguments extras;
+  ChoicesArguments choices;
   std::string output;
 };
 
@@ -106,7 +117,9 @@ void run_instance(const CLI::App& command, const NewInstanceArguments& arguments
                                 .tasks = static_cast<int>(arguments.tasks),
                                 .seed = static_cast<std::uint64_t>(arguments.seed),
                                 .mg = arguments.mg,
-                                .extras = arguments.extras.extras(!arguments.mg)};
+                                .extras = arguments.extras.extras(!arguments.mg),
+                                .choices =
+                                    arguments.choices.choices(arguments.agents, !arguments.mg)};
   const Instance instance = arguments.roadmap.empty()
                                 ? instance_on_map(arguments, request)
                                 : instance_on_roadmap(command, arguments, request);
@@ -167,6 +180,7 @@ void add_generate_instance_command(CLI::App& generate) {
   add_integer(*command, "--seed", arguments->seed, kSeeds, "seed of all random choices");
   command->add_flag("--mg", arguments->mg, "make an MG-MAPF instance: agents without destinations");
   arguments->extras.add_to(*command);
+  arguments->choices.add_to(*command);
   add_output(*command, arguments->output, "FILE.cts.json");
   command->callback([command, arguments] { run_instance(*command, *arguments); });
 }

@@ -10,6 +10,7 @@
 #include "batch/folder.h"
 #include "io/input_error.h"
 #include "io/map_file.h"
+#include "tools/generate/choices_arguments.h"
 #include "tools/generate/extras_arguments.h"
 #include "tools/generate/generate_commands.h"
 #include "tools/generate/generate_set.h"
@@ -32,6 +33,10 @@ one of the problems.
 With --turning or --durations the same instances are made for robots that need time to turn, and
 for tasks that take time; the file names show it: MAP_sS_nN_mM_turning_d0-10.cts.json.
 
+With --need the same instances are made with tasks for any K agents: _needK, or _needKofN with
+--eligible N. With --problem cts, agents may choose their destinations: _anygoal, _goalsK
+(--goal-choices K) or _groupsG (--goal-groups G). A share below 1 follows in percent: _need1-50pc.
+
 With --movingai the maps and scenarios are those of the Moving AI benchmark, in one folder: MAP.map,
 scenarios 1 to 25 from MAP-random-1.scen to MAP-random-25.scen, 26 to 50 from MAP-even-1.scen to
 MAP-even-25.scen. Without it Grove generates maps of the same kinds (empty, random and rooms, 32 x
@@ -43,6 +48,9 @@ plus --seed.
 Examples:
   grove generate paper --movingai mapf/ --scenarios 1-25 --output-dir paper
   grove generate paper --scenarios 1-3 --agents 5 --problem cts --output-dir small
+  grove generate paper --scenarios 1-3 --need 1 --need-share 0.5 --output-dir half
+  grove generate paper --movingai mapf/ --maps den312d --scenarios 1-5 --agents 10,50,100 \
+        --tasks 0 --problem cts --any-goal --output-dir targets
   grove bench small/manifest.txt --run 'paper: --policy fixed' --run 'grove:' --output-dir results)";
 
 // Values of --problem, each with the problems that it generates: false is CTS-MAPF (agents have
@@ -59,6 +67,7 @@ struct PaperArguments {
   std::string problem = "both";
   std::int64_t seed = 0;
   ExtrasArguments extras;
+  ChoicesArguments choices;
   std::string output_dir;
 };
 
@@ -145,11 +154,14 @@ std::vector<MapSet> draw_map_sets(const PaperArguments& arguments) {
 
 void run(const CLI::App& app, const PaperArguments& arguments) {
   const Extras extras = arguments.extras.extras(arguments.problem != "mg");
+  const Choices choices = arguments.choices.choices(std::ranges::min(arguments.agents),
+                                                    arguments.problem == "cts");
   const bool draws = arguments.movingai.empty();
   if (draws && app.count("--maps") > 0)
     throw CLI::ValidationError("--maps", "allowed only with --movingai");
   const std::vector<MapSet> maps = draws ? draw_map_sets(arguments) : load_map_sets(arguments);
-  const SetSizes sizes{arguments.agents, arguments.tasks, kProblems.at(arguments.problem), extras};
+  const SetSizes sizes{arguments.agents, arguments.tasks, kProblems.at(arguments.problem), extras,
+                       choices};
   require_fitting(maps, sizes);
   batch::make_folder(arguments.output_dir);
   if (draws)
@@ -188,6 +200,7 @@ void add_generate_paper_command(CLI::App& generate) {
       ->capture_default_str();
   add_integer(*command, "--seed", arguments->seed, {0, 1'000'000'000}, "seed of the data set");
   arguments->extras.add_to(*command);
+  arguments->choices.add_to(*command);
   command
       ->add_option("--output-dir", arguments->output_dir, "folder to write to; created if missing")
       ->required()

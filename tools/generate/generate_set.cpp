@@ -28,9 +28,10 @@ void for_each_instance(const MapSet& map, const SetSizes& sizes, const UseInstan
                                         .tasks = static_cast<int>(tasks),
                                         .seed = static_cast<std::uint64_t>(seed),
                                         .mg = mg,
-                                        .extras = sizes.extras};
-          use(fmt::format("{}_s{}_n{}_m{}{}{}.cts.json", stem, number, agents, tasks,
-                          sizes.extras.suffix(), mg ? "_mg" : ""),
+                                        .extras = sizes.extras,
+                                        .choices = sizes.choices};
+          use(fmt::format("{}_s{}_n{}_m{}{}{}{}.cts.json", stem, number, agents, tasks,
+                          sizes.extras.suffix(), sizes.choices.suffix(), mg ? "_mg" : ""),
               generate_instance(map.grid, scenario, request));
         }
       }

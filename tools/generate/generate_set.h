@@ -34,14 +34,15 @@ struct SetSizes {
   std::vector<std::int64_t> tasks;
   std::vector<bool> mg{false};  // false: CTS-MAPF, true: MG-MAPF
   Extras extras = {};           // the same in all instances
+  Choices choices = {};         // the same in all instances
 };
 
 // Generates all instances without writing them. Throws what generate_instance() throws if one is
 // impossible.
 void require_fitting(const std::vector<MapSet>& maps, const SetSizes& sizes);
 
-// Writes the instances DIR/MAP_sS_nN_mM.cts.json (before .cts.json, the suffix of the extras and,
-// for MG-MAPF, _mg) and DIR/manifest.txt, which lists them. For a set with both problems, also
+// Writes the instances DIR/MAP_sS_nN_mM.cts.json (before .cts.json, the suffixes of extras and
+// choices and, for MG-MAPF, _mg) and DIR/manifest.txt, which lists them. For a set with both problems, also
 // writes manifest-cts.txt and manifest-mg.txt with the instances of one problem each. Creates the
 // folder if it is missing and prints a summary. Throws InputError if an instance is impossible or a
 // file cannot be written.

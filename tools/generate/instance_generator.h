@@ -9,6 +9,7 @@
 
 #include "io/scenario_file.h"
 #include "model/instance.h"
+#include "tools/generate/choices.h"
 
 namespace grove::detail {
 
@@ -41,6 +42,9 @@ struct InstanceRequest {
   // Drawn independently, so that the other parts of the instance do not depend on them. Turning is
   // possible only on grids.
   Extras extras = {};
+  // Drawn independently, too. With `mg`, agents have no choice of destinations, and each agent must
+  // visit the task on its drawn destination.
+  Choices choices = {};
 };
 
 // Returns the first row (counted from 0) whose start can become a task: max(20, agents).
@@ -51,10 +55,11 @@ int rows_needed(const InstanceRequest& request);
 
 // Generates an instance. The first `agents` rows define the agents a0, a1, .... The starts of the
 // rows from first_task_row() on become the tasks t0, t1, ..., except for rows whose start already
-// has a task or cannot be reached by any agent. Each task is assigned to 1, 2 or 3 distinct agents,
-// drawn from the agents that can reach it. Throws InputError, which names the scenario, if the
-// scenario has too few rows, if the row of an agent does not fit `grid` or the other agents, or if
-// an agent would get more than kMaxTasksPerAgent tasks.
+// has a task or cannot be reached by any agent. Each task without a need (Choices::need) is assigned
+// to 1, 2 or 3 distinct agents, drawn from the agents that can reach it. Throws InputError, which names the scenario, if the
+// scenario has too few rows, if the row of an agent does not fit `grid` or the other agents, if
+// too few agents can reach a task with a need, or if an agent would have to visit more than
+// kMaxTasksPerAgent tasks.
 Instance generate_instance(const Grid& grid, const Scenario& scenario,
                            const InstanceRequest& request);
 

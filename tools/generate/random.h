@@ -15,7 +15,9 @@ enum class RandomUse : std::uint32_t {
   kTasks = 3,     // assignment of tasks
   kRoadmap = 4,
   kMotion = 5,  // headings
-  kDurations = 6
+  kDurations = 6,
+  kNeeds = 7,  // which tasks have a need, and their agents
+  kGoals = 8   // choices of destinations
 };
 
 inline Random random_for(RandomUse use, std::uint64_t seed) {

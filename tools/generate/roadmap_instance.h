@@ -24,11 +24,11 @@ struct Site {
 
 // Generates an instance with agents a0, a1, ... and tasks t0, t1, .... Starts are distinct, goals
 // are distinct, and no goal is the start of the same agent if there are at least two vertices for
-// agents. Tasks are on distinct vertices where no agent starts. Each is assigned to 1, 2 or 3
-// distinct agents. With `request.mg` the goal of each agent becomes a further task of this agent,
+// agents. Tasks are on distinct vertices where no agent starts. Each without a need
+// (Choices::need) is assigned to 1, 2 or 3 distinct agents. With `request.mg` the goal of each agent becomes a further task of this agent,
 // even if another agent starts there. All vertices are in the largest strongly connected component
 // of the roadmap. Throws InputError, which names the roadmap, if that component has too few
-// suitable vertices, or if an agent would get more than kMaxTasksPerAgent tasks.
+// suitable vertices, or if an agent would have to visit more than kMaxTasksPerAgent tasks.
 Instance generate_instance(const Site& site, const InstanceRequest& request);
 
 }  // namespace grove::detail
