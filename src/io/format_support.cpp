@@ -20,6 +20,7 @@ std::string task_field(TaskIndex task) {
 }
 
 // Returns the tasks in the order of their first appearance in the agents' lists, agent by agent.
+// Precondition: agents must visit all their tasks.
 std::vector<TaskIndex> order_of_appearance(const Instance& instance) {
   std::vector<TaskIndex> order;
   std::vector<bool> seen(instance.task_count());
@@ -56,7 +57,7 @@ template <typename AgentId>
 void add_task(InstanceBuilder& builder, const Task& task, std::string id, AgentId agent_id) {
   std::vector<std::string> agents;
   for (AgentIndex agent : task.agents) agents.push_back(agent_id(agent));
-  builder.add_task(std::move(id), task.cell, agents, task.duration);
+  builder.add_task(std::move(id), task.cell, agents, task.duration, task.need);
 }
 
 }  // namespace
@@ -91,6 +92,19 @@ void require_free_grid(const Instance& instance, std::string_view format) {
                              Loss::kNothing);
 }
 
+void require_fixed_tasks(const Instance& instance, std::string_view format) {
+  for (TaskIndex i = 0; i < instance.task_count(); ++i) {
+    const Task& task = instance.task(i);
+    if (!task.needs_all())
+      throw NotRepresentable(
+          task_field(i),
+          fmt::format("task '{}' needs {} of its {} agents, which cannot be represented in {}; "
+                      "expected tasks that all their agents must visit",
+                      task.id, task.need, task.agents.size(), format),
+          Loss::kNothing);
+  }
+}
+
 void require_work_for_all(const Instance& instance, std::string_view format) {
   for (AgentIndex i = 0; i < instance.agent_count(); ++i)
     if (instance.agent(i).is_idle())
@@ -116,14 +130,15 @@ void require_distinct_cells(const Instance& instance, std::string_view format) {
 }
 
 void require_goals(const Instance& instance, std::string_view format) {
-  for (AgentIndex i = 0; i < instance.agent_count(); ++i)
-    if (!instance.agent(i).goal)
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+    const Agent& agent = instance.agent(i);
+    if (!agent.goal)
       throw NotRepresentable(
           agent_field(i),
-          fmt::format(
-              "agent '{}' has no goal; expected one for every agent, because {} requires it",
-              instance.agent(i).id, format),
+          fmt::format("agent '{}' {}; expected one for every agent, because {} requires it",
+                      agent.id, agent.goals.empty() ? "has no goal" : "chooses its goal", format),
           Loss::kNothing);
+  }
 }
 
 void require_no_tasks(const Instance& instance, std::string_view format) {
@@ -145,6 +160,7 @@ void require_default_agent_ids(const Instance& instance, std::string_view format
 }
 
 void require_default_task_ids(const Instance& instance, std::string_view format) {
+  require_fixed_tasks(instance, format);
   const std::vector<TaskIndex> order = order_of_appearance(instance);
   for (TaskIndex i = 0; i < instance.task_count(); ++i) {
     const std::string& id = instance.task(order[i]).id;
@@ -160,7 +176,7 @@ void require_default_task_ids(const Instance& instance, std::string_view format)
 
 Instance without_tasks(const Instance& instance) {
   for (AgentIndex i = 0; i < instance.agent_count(); ++i)
-    if (!instance.agent(i).goal)
+    if (!instance.agent(i).has_destination())
       throw InstanceError(agent_field(i),
                           fmt::format("agent '{}' has no goal; expected one for every agent, "
                                       "because without tasks it would have nothing to do",
@@ -172,6 +188,7 @@ Instance without_tasks(const Instance& instance) {
 }
 
 Instance with_default_task_ids(const Instance& instance) {
+  if (!std::ranges::all_of(instance.tasks(), &Task::needs_all)) return instance;
   const auto agent_id = [&](AgentIndex i) { return instance.agent(i).id; };
   const std::vector<TaskIndex> order = order_of_appearance(instance);
   InstanceBuilder builder = with_agents(instance, agent_id, [&](TaskIndex task) {

@@ -39,19 +39,24 @@ std::string default_task_id(TaskIndex task);
 // name. what() names `format`. require_free_grid() requires a grid, agents that turn freely, and
 // tasks that take no time.
 void require_free_grid(const Instance& instance, std::string_view format);
+// Requires that each agent of a task must visit it.
+void require_fixed_tasks(const Instance& instance, std::string_view format);
 // Requires that no agent is idle.
 void require_work_for_all(const Instance& instance, std::string_view format);
 // Requires that no two tasks are on the same cell.
 void require_distinct_cells(const Instance& instance, std::string_view format);
+// Requires that each agent has a destination, and no choice of it.
 void require_goals(const Instance& instance, std::string_view format);
 void require_no_tasks(const Instance& instance, std::string_view format);
 void require_default_agent_ids(const Instance& instance, std::string_view format);
-// Also requires that the tasks are in the order of their default ids.
+// Also requires that the tasks are in the order of their default ids, and require_fixed_tasks().
 void require_default_task_ids(const Instance& instance, std::string_view format);
 
 // Copies of `instance` without its tasks, or with default ids. without_tasks() throws InstanceError
 // (field "agents/<i>") if an agent has no destination, because it would have nothing left to do.
-// with_default_task_ids() also puts the tasks in the order of their default ids.
+// with_default_task_ids() also puts the tasks in the order of their default ids. It returns an
+// instance unchanged in which a task needs only some of its agents, because no format without ids
+// can represent it.
 Instance without_tasks(const Instance& instance);
 Instance with_default_task_ids(const Instance& instance);
 Instance with_default_agent_ids(const Instance& instance);

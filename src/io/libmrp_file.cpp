@@ -3,18 +3,27 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iterator>
 #include <optional>
+#include <string_view>
+#include <unordered_set>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "io/atomic_file.h"
 #include "io/format_support.h"
 #include "io/input_error.h"
+#include "io/map_file.h"
 #include "io/waypoints.h"
 #include "io/yaml_text.h"
 #include "io/yaml_value.h"
 
 namespace grove::detail {
 namespace {
+
+constexpr std::string_view kLibmrp = "libMultiRobotPlanning's YAML";
 
 // --- reading ---
 
@@ -46,46 +55,117 @@ Grid read_grid(const YamlValue& map, const std::string& file, const InputRules& 
   return Grid(width, height, passable);
 }
 
-// The destination of `agent`. Returns nullopt if it has none.
-std::optional<YamlValue> find_goal(const YamlValue& agent) {
-  const auto goal = agent.find("goal");
-  const auto choice = agent.find("potentialGoals");
-  const auto goals = agent.find("goals");
-  if (goal.has_value() + choice.has_value() + goals.has_value() != 1)
-    agent.fail("expected exactly one of the keys 'goal', 'goals' and 'potentialGoals'");
-  if (!choice) return goal;
-  if (choice->size() != 1)
-    choice->fail(fmt::format(
-        "found {} potential goals; expected one, because Grove does not choose destinations",
-        choice->size()));
-  return choice->element(0);
-}
-
-// The value in `agent` to which the field of an InstanceError refers.
-YamlValue place_of(const YamlValue& agent, const std::optional<YamlValue>& goal,
-                   const std::string& field) {
-  if (field == "id") return agent.member("name");
-  if (field == "start") return agent.member("start");
-  return field == "goal" && goal ? *goal : agent;
-}
-
-void add_agent(InstanceBuilder& builder, const YamlValue& agent, Waypoints& waypoints) {
-  const std::string name = agent.member("name").text();
-  const Position start = agent.member("start").position();
-  const auto goal = find_goal(agent);
+// The map file of ITA-CBS that `map` names, relative to the instance file `file`.
+Grid read_named_grid(const YamlValue& map, const std::string& file,
+                     std::vector<std::string>* warnings, const InputRules& rules) {
+  namespace fs = std::filesystem;
+  if (map.text().empty()) map.fail_expected("a map, or the name of a map file");
+  fs::path path;
   try {
-    builder.add_agent(name, start, goal ? std::optional(goal->position()) : std::nullopt);
-  } catch (const InstanceError& error) {
-    place_of(agent, goal, error.field()).fail(error.what());
+    path = file_in_folder(rules, fs::path(file).parent_path(), map.text());
+  } catch (const std::invalid_argument& error) {
+    map.fail(error.what());
   }
-  const auto goals = agent.find("goals");
-  if (!goals) return;
-  if (goals->size() == 0) goals->fail("there are no goals; expected at least one");
-  for (std::size_t k = 0; k < goals->size(); ++k) {
-    const YamlValue value = goals->element(k);
-    waypoints.add(name, value.position(), value.place());
-  }
+  if (!fs::is_regular_file(path))
+    map.fail(
+        fmt::format("there is no file '{}'; expected a map, relative to this file", path.string()));
+  return read_map(path, warnings, rules);
 }
+
+// Reads the agents into a builder.
+class AgentReader {
+ public:
+  // `by_rows`: whether cells are [row, column].
+  AgentReader(InstanceBuilder& builder, Waypoints& waypoints, bool by_rows)
+      : builder_(builder),
+        grid_(std::get<Grid>(builder.map())),
+        waypoints_(waypoints),
+        by_rows_(by_rows) {}
+
+  void add(const YamlValue& agent) {
+    AgentSpec spec{.id = agent.member("name").text(), .start = {}, .goal = std::nullopt};
+    spec.start.place = cell(agent.member("start"));
+    const std::vector<YamlValue> destinations = this->destinations(agent);
+    if (destinations.size() == 1) spec.goal = cell(destinations.front());
+    if (destinations.size() > 1)
+      for (const YamlValue& value : destinations) spec.goals.push_back(cell(value));
+    try {
+      builder_.add_agent(std::move(spec));
+    } catch (const InstanceError& error) {
+      place_of(agent, destinations, error.field()).fail(error.what());
+    }
+    add_waypoints(agent);
+  }
+
+ private:
+  Position position(const YamlValue& value) const {
+    const Position p = value.position();
+    return by_rows_ ? Position{p.y, p.x} : p;
+  }
+
+  // Messages name cells as the file does.
+  Cell cell(const YamlValue& value) const {
+    const Position p = position(value);
+    const Position in_file = value.position();
+    if (!grid_.contains(p))
+      value.fail(fmt::format("cell [{}, {}] is outside the map; expected {}", in_file.x, in_file.y,
+                             cells_text()));
+    if (!grid_.passable(grid_.cell(p)))
+      value.fail(fmt::format("cell [{}, {}] is blocked on the map; expected a passable cell",
+                             in_file.x, in_file.y));
+    return grid_.cell(p);
+  }
+
+  std::string cells_text() const {
+    const int columns = grid_.width() - 1;
+    const int rows = grid_.height() - 1;
+    return by_rows_
+               ? fmt::format("[row, column] with row in 0..{} and column in 0..{}", rows, columns)
+               : fmt::format("[x, y] (column, row) with x in 0..{} and y in 0..{}", columns, rows);
+  }
+
+  // The distinct cells of which `agent` chooses its destination; empty for an agent without one.
+  std::vector<YamlValue> destinations(const YamlValue& agent) const {
+    const auto goal = agent.find("goal");
+    const auto choice = agent.find("potentialGoals");
+    if (goal.has_value() + choice.has_value() + agent.find("goals").has_value() != 1)
+      agent.fail("expected exactly one of the keys 'goal', 'goals' and 'potentialGoals'");
+    std::vector<YamlValue> found;
+    if (goal) found.push_back(*goal);
+    std::unordered_set<Cell> cells;
+    for (std::size_t k = 0; choice && k < choice->size(); ++k) {
+      const YamlValue value = choice->element(k);
+      if (cells.insert(cell(value)).second) found.push_back(value);
+    }
+    return found;
+  }
+
+  // The value in `agent` to which the field of an InstanceError refers.
+  static YamlValue place_of(const YamlValue& agent, const std::vector<YamlValue>& destinations,
+                            const std::string& field) {
+    constexpr std::string_view kGoals = "goals/";
+    if (field == "id") return agent.member("name");
+    if (field == "start") return agent.member("start");
+    if (field == "goal") return destinations.front();
+    return field.starts_with(kGoals) ? destinations.at(std::stoul(field.substr(kGoals.size())))
+                                     : agent;
+  }
+
+  void add_waypoints(const YamlValue& agent) {
+    const auto goals = agent.find("goals");
+    if (!goals) return;
+    if (goals->size() == 0) goals->fail("there are no goals; expected at least one");
+    for (std::size_t k = 0; k < goals->size(); ++k) {
+      const YamlValue value = goals->element(k);
+      waypoints_.add(agent.member("name").text(), position(value), value.place());
+    }
+  }
+
+  InstanceBuilder& builder_;
+  const Grid& grid_;
+  Waypoints& waypoints_;
+  bool by_rows_;
+};
 
 // --- writing ---
 
@@ -112,7 +192,7 @@ std::string head_text(const Grid& grid, const Agent& agent) {
 
 void require_no_goals(const Instance& instance, std::string_view format) {
   for (AgentIndex i = 0; i < instance.agent_count(); ++i)
-    if (instance.agent(i).goal)
+    if (instance.agent(i).has_destination())
       throw NotRepresentable(
           fmt::format("agents/{}", i),
           fmt::format(
@@ -122,17 +202,27 @@ void require_no_goals(const Instance& instance, std::string_view format) {
           Loss::kNothing);
 }
 
-void write_with_goals(const std::filesystem::path& path, const Instance& instance,
-                      fmt::format_string<std::string> goal_line) {
-  constexpr std::string_view kFormat = "libMultiRobotPlanning's YAML";
-  require_free_grid(instance, kFormat);
-  require_goals(instance, kFormat);
-  require_no_tasks(instance, kFormat);
-  std::string text = map_text(instance.grid()) + "agents:\n";
-  for (const Agent& agent : instance.agents())
-    text += head_text(instance.grid(), agent) +
-            fmt::format(goal_line, cell_text(instance.grid(), *agent.goal));
-  write_file_atomically(path, text);
+void require_no_choice_of_goals(const Instance& instance) {
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i)
+    if (!instance.agent(i).goals.empty())
+      throw NotRepresentable(
+          fmt::format("agents/{}", i),
+          fmt::format("agent '{}' chooses its goal, which cannot be represented in "
+                      "libMultiRobotPlanning's YAML for CBS; expected one goal for every agent, or "
+                      "the format potential-goals (CBS-TA)",
+                      instance.agent(i).id),
+          Loss::kNothing);
+}
+
+std::string potential_goals_text(const Grid& grid, const Agent& agent) {
+  std::string text = "    potentialGoals:";
+  if (!agent.has_destination()) return text + " []\n";
+  text += '\n';
+  std::vector<Place> goals = agent.goals;
+  if (agent.goal) goals.push_back(*agent.goal);
+  for (const Place goal : goals)
+    fmt::format_to(std::back_inserter(text), "      - {}\n", cell_text(grid, goal));
+  return text;
 }
 
 }  // namespace
@@ -140,18 +230,22 @@ void write_with_goals(const std::filesystem::path& path, const Instance& instanc
 Instance read_libmrp_instance(const std::filesystem::path& path, std::vector<std::string>* warnings,
                               const InputRules& rules) {
   const YamlDocument document(path, rules);
+  const std::string file = path.string();
   const YamlValue root = document.root();
   if (const auto roadmap = root.find("roadmap"))
     roadmap->fail("found a roadmap; expected a grid, given by the key 'map'");
-  UnknownYamlKeys unknown(path.string(), warnings);
+  UnknownYamlKeys unknown(file, warnings);
   unknown.look_at(root, {"map", "agents"});
   const YamlValue map = root.member("map");
-  InstanceBuilder builder(read_grid(map, path.string(), rules));
-  unknown.look_at(map, {"dimensions", "obstacles"});
+  const bool is_named = map.node().IsScalar();
+  InstanceBuilder builder(is_named ? read_named_grid(map, file, warnings, rules)
+                                   : read_grid(map, file, rules));
+  if (!is_named) unknown.look_at(map, {"dimensions", "obstacles"});
   const YamlValue agents = root.member("agents");
-  Waypoints waypoints(path.string());
+  Waypoints waypoints(file);
+  AgentReader reader(builder, waypoints, is_named);
   for (std::size_t i = 0; i < agents.size(); ++i) {
-    add_agent(builder, agents.element(i), waypoints);
+    reader.add(agents.element(i));
     unknown.look_at(agents.element(i), {"name", "start", "goal", "goals", "potentialGoals"});
   }
   waypoints.add_to(builder);
@@ -163,16 +257,30 @@ Instance read_libmrp_instance(const std::filesystem::path& path, std::vector<std
 }
 
 void write_libmrp_instance(const std::filesystem::path& path, const Instance& instance) {
-  write_with_goals(path, instance, "    goal: {}\n");
+  require_free_grid(instance, kLibmrp);
+  require_no_choice_of_goals(instance);
+  require_goals(instance, kLibmrp);
+  require_no_tasks(instance, kLibmrp);
+  std::string text = map_text(instance.grid()) + "agents:\n";
+  for (const Agent& agent : instance.agents())
+    text += head_text(instance.grid(), agent) +
+            fmt::format("    goal: {}\n", cell_text(instance.grid(), *agent.goal));
+  write_file_atomically(path, text);
 }
 
 void write_potential_goals(const std::filesystem::path& path, const Instance& instance) {
-  write_with_goals(path, instance, "    potentialGoals:\n      - {}\n");
+  require_free_grid(instance, kLibmrp);
+  require_no_tasks(instance, kLibmrp);
+  std::string text = map_text(instance.grid()) + "agents:\n";
+  for (const Agent& agent : instance.agents())
+    text += head_text(instance.grid(), agent) + potential_goals_text(instance.grid(), agent);
+  write_file_atomically(path, text);
 }
 
 void write_mgcbs_instance(const std::filesystem::path& path, const Instance& instance) {
   constexpr std::string_view kFormat = "MGCBS's YAML";
   require_free_grid(instance, kFormat);
+  require_fixed_tasks(instance, kFormat);
   require_no_goals(instance, kFormat);
   require_work_for_all(instance, kFormat);
   require_distinct_cells(instance, kFormat);

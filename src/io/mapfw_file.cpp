@@ -130,6 +130,7 @@ Instance read_mapfw_problem(const std::filesystem::path& path, std::vector<std::
 void write_mapfw_problem(const std::filesystem::path& path, const Instance& instance) {
   constexpr std::string_view kFormat = "MAPFW's JSON";
   require_free_grid(instance, kFormat);
+  require_fixed_tasks(instance, kFormat);
   require_goals(instance, kFormat);
   require_default_agent_ids(instance, kFormat);
   require_distinct_cells(instance, kFormat);

@@ -26,8 +26,8 @@ Instance read_mapfw_problem(const std::filesystem::path& path,
 
 // Writes a problem, atomically. Each task becomes a waypoint of each of its agents. Throws
 // NotRepresentable if the map is a roadmap; an agent has no destination, or turns that take time;
-// the tasks take time or share a cell; or ids are not the default ids. Throws InputError if the
-// file cannot be written.
+// the tasks take time, need only some of their agents, or share a cell; or ids are not the default
+// ids. Throws InputError if the file cannot be written.
 void write_mapfw_problem(const std::filesystem::path& path, const Instance& instance);
 
 }  // namespace grove::detail

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <ranges>
 
 #include "io/atomic_file.h"
 #include "io/format_support.h"
@@ -87,11 +88,14 @@ Cost loss(const Path& path) {
   return steps;
 }
 
-// A lower bound on the finish time: the maximum distance from the start to a task or the
-// destination.
+// A lower bound on the finish time: the maximum distance from the start to a task that the agent
+// must visit, or to the nearest destination.
 Time farthest_stop(const Instance& instance, const Agent& agent) {
   const DistanceField distance = distance_field(instance.grid(), agent.start);
   Time farthest = agent.goal ? distance[*agent.goal] : 0;
+  if (!agent.goals.empty())
+    farthest = std::ranges::min(
+        agent.goals | std::views::transform([&](Place goal) -> Time { return distance[goal]; }));
   for (TaskIndex task : agent.tasks)
     farthest = std::max(farthest, distance[instance.task(task).cell]);
   return farthest;

@@ -209,7 +209,7 @@ std::vector<TaskIndex> order_of_tasks(const Instance& instance, const Agent& age
   std::vector<TaskIndex> tasks = agent.tasks;
   std::ranges::stable_sort(tasks, {}, [&](TaskIndex task) {
     const Cell cell = instance.task(task).cell;
-    const bool is_last = !agent.goal && !path.empty() && cell == path.back();
+    const bool is_last = !agent.has_destination() && !path.empty() && cell == path.back();
     return std::pair(is_last, std::ranges::find(path, cell) - path.begin());
   });
   return tasks;

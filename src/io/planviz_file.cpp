@@ -75,8 +75,8 @@ struct Errands {
   Errands(const Instance& instance, AgentIndex agent, const AgentPlan& plan)
       : times(visit_times(instance, plan)) {
     for (const TaskIndex task : plan.sequence) add(instance, instance.task(task).cell);
-    if (const auto goal = instance.agent(agent).goal) {
-      add(instance, *goal);
+    if (instance.agent(agent).has_destination()) {
+      add(instance, instance.world().place(plan.path.back()));
       times.push_back(plan.cost);
     }
   }

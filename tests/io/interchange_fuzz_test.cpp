@@ -22,6 +22,10 @@ const std::string kMapf =
     "map:\n  dimensions: [5, 3]\n  obstacles:\n    - [1, 0]\n    - !!python/tuple [3, 2]\n"
     "agents:\n  - name: agent0\n    start: [0, 0]\n    goal: [4, 0]\n"
     "  - name: \"on\"\n    start: [3, 0]\n    potentialGoals: [[1, 2]]\n";
+const std::string kTargets =
+    "map: {dimensions: [5, 3], obstacles: [[1, 0], [3, 2]]}\n"
+    "agents:\n  - name: agent0\n    start: [4, 1]\n    potentialGoals:\n      - [0, 2]\n"
+    "      - [2, 0]\n  - name: agent1\n    start: [0, 0]\n    potentialGoals: [[2, 0], [3, 1]]\n";
 const std::string kMgMapf =
     "map: {dimensions: [5, 3], obstacles: [[1, 0], [3, 2]]}\n"
     "agents:\n  - &first\n    name: agent0\n    start: [4, 1]\n    goals:\n      - [0, 2]\n"
@@ -124,6 +128,12 @@ Instance read_yaml(const std::string& path) {
 
 TEST(InterchangeFuzz, LibmrpInstancesAreReadOrRefused) {
   const int survived = survivors(kMapf, read_yaml, write_libmrp_instance);
+  EXPECT_GT(survived, 10);
+  EXPECT_LT(survived, cases());
+}
+
+TEST(InterchangeFuzz, InstancesWithPotentialGoalsAreReadOrRefused) {
+  const int survived = survivors(kTargets, read_yaml, write_potential_goals);
   EXPECT_GT(survived, 10);
   EXPECT_LT(survived, cases());
 }

@@ -45,6 +45,25 @@ Instance mg_mapf(const std::string& last_task = "t2") {
   return std::move(builder).build();
 }
 
+// Agents with a choice of destinations, with one, and without.
+const std::string kTargets =
+    kMapText +
+    "agents:\n  - name: a0\n    start: [0, 0]\n    potentialGoals:\n      - [4, 0]\n"
+    "      - [0, 0]\n      - [2, 2]\n  - name: a1\n    start: [3, 0]\n    potentialGoals:\n"
+    "      - [2, 2]\n  - name: a2\n    start: [2, 1]\n    potentialGoals: []\n";
+
+Instance targets() {
+  const Grid map = grid();
+  InstanceBuilder builder(map);
+  builder.add_agent({.id = "a0",
+                     .start = {.place = map.cell({0, 0})},
+                     .goal = std::nullopt,
+                     .goals = {map.cell({4, 0}), map.cell({0, 0}), map.cell({2, 2})}});
+  builder.add_agent("a1", {3, 0}, Position{2, 2});
+  builder.add_agent("a2", {2, 1}, std::nullopt);
+  return std::move(builder).build();
+}
+
 // Returns agents, tasks and obstacles in one line, to compare instances.
 std::string summary(const Instance& instance) {
   const Grid& grid = instance.grid();
@@ -55,8 +74,10 @@ std::string summary(const Instance& instance) {
   std::string text = std::to_string(grid.width()) + "x" + std::to_string(grid.height());
   for (Cell c = 0; c < grid.cell_count(); ++c)
     if (!grid.passable(c)) text += " @" + cell(c);
-  for (const Agent& agent : instance.agents())
+  for (const Agent& agent : instance.agents()) {
     text += " " + agent.id + cell(agent.start) + (agent.goal ? cell(*agent.goal) : "");
+    for (const Place goal : agent.goals) text += "|" + cell(goal);
+  }
   for (const Task& task : instance.tasks()) {
     text += " " + task.id + cell(task.cell);
     for (AgentIndex agent : task.agents) text += instance.agent(agent).id;
@@ -96,6 +117,56 @@ TEST_F(LibmrpFile, IsWrittenForSolversThatAssignGoals) {
             std::string::npos)
       << text;
   EXPECT_EQ(summary(read(text)), summary(mapf()));
+}
+
+TEST_F(LibmrpFile, KeepsChoicesOfDestinations) {
+  write_potential_goals(directory_ / "o.yaml", targets());
+  EXPECT_EQ(file_content(directory_ / "o.yaml"), kTargets);
+  EXPECT_EQ(summary(read(kTargets)), summary(targets()));
+  EXPECT_EQ(summary(read(kTargets)),
+            "5x3 @(1,0) @(3,2) @(4,2) a0(0,0)|(4,0)|(0,0)|(2,2) a1(3,0)(2,2) a2(2,1)");
+  EXPECT_TRUE(warnings_.empty());
+}
+
+TEST_F(LibmrpFile, CountsARepeatedPotentialGoalOnce) {
+  const std::string start =
+      "map: {dimensions: [3, 1], obstacles: []}\nagents:\n"
+      "  - {name: a, start: [0, 0], potentialGoals: ";
+  EXPECT_EQ(summary(read(start + "[[2, 0], [1, 0], [2, 0]]}\n")), "3x1 a(0,0)|(2,0)|(1,0)");
+  EXPECT_EQ(summary(read(start + "[[2, 0], [2, 0]]}\n")), "3x1 a(0,0)(2,0)");
+}
+
+TEST_F(LibmrpFile, ReadsANamedMapWithCellsByRows) {
+  directory_.write("m.map", "type octile\nheight 3\nwidth 5\nmap\n.@...\n.....\n...@@\n");
+  const std::string by_rows =
+      "agents:\n- name: a0\n  potentialGoals:\n  - [0, 4]\n  - [0, 0]\n  - [2, 2]\n"
+      "  start: [0, 0]\n- {name: a1, start: [0, 3], goal: [2, 2]}\n"
+      "- {name: a2, start: [1, 2], potentialGoals: []}\nmap: m.map\n";
+  EXPECT_EQ(summary(read(by_rows)), summary(targets()));
+  const auto refused_by_rows = [&](const std::string& from, const std::string& to) {
+    std::string text = by_rows;
+    EXPECT_NE(text.find(from), std::string::npos) << from;
+    return refused(text.replace(text.find(from), from.size(), to));
+  };
+  EXPECT_EQ(refused_by_rows("[0, 4]", "[4, 0]"),
+            "i.yaml: line 4, column 5: cell [4, 0] is outside the map; expected [row, column] with "
+            "row in 0..2 and column in 0..4");
+  EXPECT_EQ(refused_by_rows("[0, 4]", "[2, 4]"),
+            "i.yaml: line 4, column 5: cell [2, 4] is blocked on the map; expected a passable "
+            "cell");
+  EXPECT_NE(refused_by_rows("map: m.map", "map: none.map").find("i.yaml: line 10, column 6: "),
+            std::string::npos);
+  EXPECT_EQ(refused_by_rows("map: m.map", "map: ''"),
+            "i.yaml: line 10, column 6: found ''; expected a map, or the name of a map file");
+  EXPECT_EQ(refused_by_rows("map: m.map", "map: [3, 2]"),
+            "i.yaml: line 10, column 6: found a list; expected a map");
+  std::filesystem::create_directory(directory_ / "below");
+  const std::string below =
+      directory_.write("below/i.yaml", by_rows.substr(0, by_rows.size() - 6) + "../m.map\n");
+  EXPECT_EQ(read_libmrp_instance(below).agent_count(), 3);
+  EXPECT_TRUE(refusal([&] {
+                read_libmrp_instance(below, nullptr, {.confined = true});
+              }).starts_with("i.yaml: line 10, column 6: '../m.map'"));
 }
 
 TEST_F(LibmrpFile, IsReadBack) {
@@ -205,9 +276,22 @@ TEST_F(LibmrpFile, RefusesInvalidFilesWithThePlace) {
   EXPECT_EQ(refused_with("    goal: [4, 0]\n", ""),
             "i.yaml: line 8, column 5: expected exactly one of the keys 'goal', 'goals' and "
             "'potentialGoals'");
-  EXPECT_EQ(refused_with("goal: [4, 0]", "potentialGoals: [[4, 0], [3, 0]]"),
-            "i.yaml: line 10, column 21: found 2 potential goals; expected one, because Grove does "
-            "not choose destinations");
+  EXPECT_EQ(refused_with("goal: [4, 0]", "goal: [4, 0]\n    potentialGoals: [[3, 0]]"),
+            "i.yaml: line 8, column 5: expected exactly one of the keys 'goal', 'goals' and "
+            "'potentialGoals'");
+  EXPECT_EQ(refused_with("goal: [4, 0]", "potentialGoals: [[4, 0], [3, 9]]"),
+            "i.yaml: line 10, column 30: cell [3, 9] is outside the map; expected [x, y] (column, "
+            "row) with x in 0..4 and y in 0..2");
+  EXPECT_EQ(refused_with("goal: [4, 0]", "potentialGoals: [[4, 0], [1, 0]]"),
+            "i.yaml: line 10, column 30: cell [1, 0] is blocked on the map; expected a passable "
+            "cell");
+  EXPECT_EQ(refused_with("goal: [4, 0]", "potentialGoals: [4, 0]"),
+            "i.yaml: line 10, column 22: found '4'; expected a cell [x, y]");
+  EXPECT_EQ(refused_with("goal: [4, 0]", "potentialGoals: x"),
+            "i.yaml: line 10, column 21: found 'x'; expected a list");
+  EXPECT_EQ(refused_with("goal: [1, 2]", "potentialGoals: [[4, 0]]"),
+            "i.yaml: line 13, column 22: cell [4, 0] is already the goal of agent 'agent0'; "
+            "expected distinct goals");
   EXPECT_EQ(refused_with("goal: [4, 0]", "goal: [4, 0]\n    goal: [3, 1]"),
             "i.yaml: line 11, column 5: key 'goal' appears twice; expected distinct keys");
   EXPECT_EQ(refused_with("goal: [4, 0]", "goals: [[4, 0], [3, 1], [4, 0]]"),
@@ -278,6 +362,26 @@ TEST_F(LibmrpFile, UnrepresentableInstancesAreNotWritten) {
   EXPECT_EQ(problem(write_mgcbs_instance, mg_mapf("shelf")),
             "tasks/2: MGCBS's YAML has no ids of tasks: read back, task 'shelf' (number 2) would "
             "be 't2' (number 2); expected that");
+  EXPECT_EQ(problem(write_libmrp_instance, targets()),
+            "agents/0: agent 'a0' chooses its goal, which cannot be represented in "
+            "libMultiRobotPlanning's YAML for CBS; expected one goal for every agent, or the "
+            "format potential-goals (CBS-TA)");
+  EXPECT_EQ(problem(write_potential_goals, mg_mapf()),
+            "tasks/0: task 't0' cannot be represented in libMultiRobotPlanning's YAML; expected no "
+            "tasks");
+  EXPECT_EQ(
+      problem(write_mgcbs_instance, targets()),
+      "agents/0: agent 'a0' has a goal to end on, which cannot be represented in MGCBS's YAML; "
+      "expected an agent that may end on any of its tasks (MG-MAPF)");
+  InstanceBuilder builder(grid());
+  builder.add_agent("a", {0, 0}, std::nullopt);
+  builder.add_agent("b", {4, 0}, std::nullopt);
+  const std::vector<std::string> both = {"a", "b"};
+  builder.add_task("t0", {2, 1}, both);
+  builder.add_task("t1", {0, 2}, both, 0, 1);
+  EXPECT_EQ(problem(write_mgcbs_instance, std::move(builder).build()),
+            "tasks/1: task 't1' needs 1 of its 2 agents, which cannot be represented in MGCBS's "
+            "YAML; expected tasks that all their agents must visit");
   EXPECT_TRUE(directory_.files().empty());
 }
 

@@ -122,6 +122,16 @@ TEST_F(MapfwFile, RefusesInvalidFilesWithThePlace) {
             "p.json: /starts: expected at least one agent");
 }
 
+// Any one of the agents must visit the first task.
+Instance with_a_need() {
+  InstanceBuilder builder(testing::grid_of({"....."}));
+  builder.add_agent("a0", {0, 0}, Position{4, 0});
+  builder.add_agent("red", {1, 0}, Position{3, 0});
+  builder.add_task("lift", {2, 0}, std::vector<std::string>{"a0", "red"}, 0, 1);
+  builder.add_task("shelf", {2, 0}, std::vector<std::string>{"red"});
+  return std::move(builder).build();
+}
+
 TEST_F(MapfwFile, UnrepresentableInstancesAreNotWritten) {
   const auto problem = [&](const Instance& i) -> std::string {
     try {
@@ -136,6 +146,14 @@ TEST_F(MapfwFile, UnrepresentableInstancesAreNotWritten) {
   EXPECT_EQ(problem(testing::instance_of({".."}, {{{0, 0}, std::nullopt, {{1, 0}}}})),
             "agents/0: agent 'a0' has no goal; expected one for every agent, because MAPFW's JSON "
             "requires it");
+  InstanceBuilder chooser(testing::grid_of({"..."}));
+  chooser.add_agent({.id = "a0", .start = {.place = 0}, .goal = std::nullopt, .goals = {1, 2}});
+  EXPECT_EQ(problem(std::move(chooser).build()),
+            "agents/0: agent 'a0' chooses its goal; expected one for every agent, because MAPFW's "
+            "JSON requires it");
+  EXPECT_EQ(problem(with_a_need()),
+            "tasks/0: task 'lift' needs 1 of its 2 agents, which cannot be represented in MAPFW's "
+            "JSON; expected tasks that all their agents must visit");
   EXPECT_TRUE(directory_.files().empty());
 }
 
@@ -153,6 +171,25 @@ TEST(FormatSupport, TasksOutOfOrderNeedOtherDefaultIds) {
   EXPECT_EQ(renamed.task(0).agents, (std::vector<AgentIndex>{1, 0}));
   EXPECT_EQ(renamed.task(1).cell, 2);
   EXPECT_EQ(renamed.task(1).agents, (std::vector<AgentIndex>{1}));
+}
+
+TEST(FormatSupport, RenamedInstancesKeepNeeds) {
+  const Instance instance = with_a_need();
+  const Instance agents = with_default_agent_ids(instance);
+  EXPECT_EQ(agents.task(0).id, "lift");
+  EXPECT_EQ(agents.task(0).need, 1);
+  EXPECT_EQ(agents.task(0).agents, (std::vector<AgentIndex>{0, 1}));
+  const Instance tasks = with_default_task_ids(instance);
+  EXPECT_EQ(tasks.task(0).id, "lift");
+  EXPECT_EQ(tasks.task(0).need, 1);
+  EXPECT_THROW(require_default_task_ids(instance, "x"), NotRepresentable);
+}
+
+TEST(FormatSupport, WithoutTasksAgentsKeepTheirChoices) {
+  InstanceBuilder builder(testing::grid_of({"..."}));
+  builder.add_agent({.id = "a", .start = {.place = 0}, .goal = std::nullopt, .goals = {1, 2}});
+  builder.add_task("t", {1, 0}, std::vector<std::string>{"a"});
+  EXPECT_EQ(without_tasks(std::move(builder).build()).agent(0).goals, (std::vector<Place>{1, 2}));
 }
 
 TEST(FormatSupport, ReducedInstancesKeepAllElse) {

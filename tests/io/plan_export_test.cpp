@@ -243,6 +243,25 @@ TEST_F(PlanExport, PlanVizHasActionsAndEvents) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
 }
 
+// The agent ends on the farther one of the destinations from which it chooses.
+TEST_F(PlanExport, NamesTheChosenDestination) {
+  InstanceBuilder builder(testing::grid_of({"....."}));
+  builder.add_agent({.id = "a", .start = {.place = 1}, .goal = std::nullopt, .goals = {0, 4}});
+  const Instance instance = std::move(builder).build();
+  Solution solution;
+  solution.plan = Plan{3, {{3, {}, {1, 2, 3, 4}}}};
+  solution.status = Status::kFeasible;
+  solution.omega = Omega::infinite();
+  ASSERT_TRUE(check(instance, solution).empty());
+  write_planviz(directory_ / "out", instance, solution);
+  EXPECT_NE(file_content(directory_ / "out").find("[0,0,[0,4]]"), std::string::npos)
+      << file_content(directory_ / "out");
+  write_visualizer_text(directory_ / "out", instance, solution, "m.map");
+  const std::string text = file_content(directory_ / "out");
+  EXPECT_NE(text.find("\nmakespan=3\nmakespan_lb=1\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\ngoals=(4,0),\n"), std::string::npos) << text;
+}
+
 TEST_F(PlanExport, PlanVizRefusesTurnsOfSeveralSteps) {
   for (const Time steps : {1, 2}) {
     InstanceBuilder builder(testing::grid_of({".."}));

@@ -22,8 +22,11 @@ template <typename Format>
 Entry(const char*, Format) -> Entry<Format>;  // clang 14 does not deduce it
 
 constexpr std::array kInstanceNames = {
-    Entry{"grove", InstanceFormat::kGrove}, Entry{"libmrp", InstanceFormat::kLibmrp},
-    Entry{"mgcbs", InstanceFormat::kMgcbs}, Entry{"mapfw", InstanceFormat::kMapfw},
+    Entry{"grove", InstanceFormat::kGrove},
+    Entry{"libmrp", InstanceFormat::kLibmrp},
+    Entry{"potential-goals", InstanceFormat::kPotentialGoals},
+    Entry{"mgcbs", InstanceFormat::kMgcbs},
+    Entry{"mapfw", InstanceFormat::kMapfw},
     Entry{"scen", InstanceFormat::kScen},
 };
 // Longer suffixes come first. The suffix .json implies no format, because Grove, MAPFW and many
@@ -100,7 +103,8 @@ bool has_separate_map(InstanceFormat format) {
 }
 
 bool holds_tasks(InstanceFormat format) {
-  return format != InstanceFormat::kLibmrp && format != InstanceFormat::kScen;
+  return format != InstanceFormat::kLibmrp && format != InstanceFormat::kPotentialGoals &&
+         format != InstanceFormat::kScen;
 }
 
 bool has_suffix_of_other_format(const std::string& file) {

@@ -7,7 +7,14 @@
 
 namespace grove::detail {
 
-enum class InstanceFormat : std::uint8_t { kGrove, kLibmrp, kMgcbs, kMapfw, kScen };
+enum class InstanceFormat : std::uint8_t {
+  kGrove,
+  kLibmrp,
+  kPotentialGoals,
+  kMgcbs,
+  kMapfw,
+  kScen,
+};
 enum class PlanFormat : std::uint8_t {
   kLibmrp,
   kVisualizer,

@@ -18,8 +18,10 @@ constexpr const char* kConvertFooter =
     R"(Instances (--from, --to; if not given, the suffix determines the format):
   grove    *.cts.json             Grove
   libmrp   *.yaml, *.yml          libMultiRobotPlanning: agents with a goal, no tasks
+  potential-goals                 libMultiRobotPlanning's CBS-TA and ITA-CBS: agents with lists of
+                                  goals (potentialGoals), of which each takes one; no tasks
   mgcbs                           MGCBS: agents with goals to visit, without a final one (MG-MAPF).
-                                  Also read as libmrp; the keys determine which of the two
+                                  All three are also read as libmrp; the keys determine which
   mapfw    *.mapfw.json           MAPFW: starts, goals and waypoints, which are tasks; no ids
   scen     *.scen                 Moving AI: only starts and goals, no ids
 Roads (--from, in place of INSTANCE; OUT is a *.roadmap.json, or --to roadmap):
@@ -40,13 +42,16 @@ Plans (--to, with --plan):
 
 If the format of OUT cannot express a part of INSTANCE, that is an error, unless --drop leaves that
 part out:
-  tasks   in libmrp and scen: agents only move from start to goal
+  tasks   in libmrp, potential-goals and scen: agents only move from start to goal
   ids     of agents in mapfw and scen, of tasks in mapfw and mgcbs: when read back they are a0, a1,
           ... and t0, t1, ..., numbered agent by agent
-Only grove and mgcbs support agents without a goal. mgcbs does not support agents with one.
+Only grove, potential-goals and mgcbs support agents without a goal. mgcbs does not support agents
+with one. Only grove and potential-goals support agents that choose their goal, and only grove
+supports tasks that need only some of their agents.
 
 Cells are x, y = column, row from the top left in all formats except eecbs. libMultiRobotPlanning's
-own viewer draws y upwards, so its picture is mirrored, but correct.
+own viewer draws y upwards, so its picture is mirrored, but correct. In files of ITA-CBS the key
+map can name a map file; their cells are read as [row, column].
 grove and scen need a map file. OUT names the map file of INSTANCE, or of --map. If there is
 neither, the map is written beside OUT, as '.' and '@'. The length column of a .scen is the shortest
 4-connected distance; Moving AI's own files have the octile distance.
@@ -85,6 +90,7 @@ number of steps one two-way road, on which robots may also turn back.
 Examples:
   grove convert warehouse.cts.json warehouse.mapfw.json --drop ids
   grove convert mapf_simple1.yaml simple.cts.json
+  grove convert targets.cts.json targets.yaml --to potential-goals
   grove convert random-32-32-20-even-1.scen --map random-32-32-20.map --agents 50 fifty.yaml
   grove convert problem.json --from mapfw problem.cts.json
   grove convert --plan warehouse.plan.json warehouse.cts.json warehouse.txt --to mapf-visualizer

@@ -102,6 +102,8 @@ void write_as(const ConvertArguments& arguments, const LoadedInstance& loaded,
       return write_naming_map(arguments, loaded, instance, to);
     case InstanceFormat::kLibmrp:
       return write_libmrp_instance(arguments.output, instance);
+    case InstanceFormat::kPotentialGoals:
+      return write_potential_goals(arguments.output, instance);
     case InstanceFormat::kMgcbs:
       return write_mgcbs_instance(arguments.output, instance);
     case InstanceFormat::kMapfw:

@@ -38,6 +38,7 @@ std::string place_of(const InstanceError& error, const Instance& instance, Insta
     case InstanceFormat::kGrove:
       return "/" + field;
     case InstanceFormat::kLibmrp:
+    case InstanceFormat::kPotentialGoals:
     case InstanceFormat::kMgcbs:
       return is_task ? fmt::format("/agents/{}/goals", instance.task(index).agents.front())
                      : "/" + field;

@@ -97,6 +97,57 @@ TEST_F(ConvertCommand, GroveToMgcbsAndBack) {
   EXPECT_EQ(content("back.cts.json"), kMg);
 }
 
+TEST_F(ConvertCommand, GroveToPotentialGoalsAndBack) {
+  const std::string targets = replaced(kPlain, R"("goal":[4,0])", R"("goals":[[4,0],[1,2]])");
+  directory_.write("targets.cts.json", targets);
+  EXPECT_EQ(converted({"targets.cts.json", "o.yaml", "--to", "potential-goals"}),
+            "wrote o.yaml: 2 agents, 0 tasks\n");
+  EXPECT_EQ(content("o.yaml").substr(content("o.yaml").find("agents:")),
+            "agents:\n  - name: a0\n    start: [0, 0]\n    potentialGoals:\n      - [4, 0]\n"
+            "      - [1, 2]\n  - name: a1\n    start: [3, 0]\n    potentialGoals:\n"
+            "      - [1, 2]\n");
+  for (const Arguments& from : {Arguments{}, Arguments{"--from", "potential-goals"}}) {
+    Arguments arguments = {"o.yaml", "back.cts.json", "--map", "m.map"};
+    arguments.insert(arguments.end(), from.begin(), from.end());
+    converted(arguments);
+    EXPECT_EQ(content("back.cts.json"), targets);
+  }
+  // The map of a file that names one, with cells [row, column].
+  directory_.write("rows.yaml",
+                   "agents:\n- {name: a0, start: [0, 0], potentialGoals: [[0, 4], [2, 1]]}\n"
+                   "- {name: a1, start: [0, 3], potentialGoals: [[2, 1]]}\nmap: m.map\n");
+  EXPECT_EQ(converted({"rows.yaml", "rows.cts.json"}),
+            "wrote rows.map: 5 x 3 cells\nwrote rows.cts.json: 2 agents, 0 tasks\n");
+  EXPECT_EQ(replaced(content("rows.cts.json"), "rows.map", "m.map"), targets);
+  EXPECT_EQ(content("rows.map"), kMap);
+}
+
+TEST_F(ConvertCommand, ChoicesAreNeverDropped) {
+  directory_.write("targets.cts.json",
+                   replaced(kPlain, R"("goal":[4,0])", R"("goals":[[4,0],[0,0]])"));
+  EXPECT_EQ(refused({"targets.cts.json", "o.yaml"}),
+            "targets.cts.json: /agents/0: agent 'a0' chooses its goal, which cannot be represented "
+            "in libMultiRobotPlanning's YAML for CBS; expected one goal for every agent, or the "
+            "format potential-goals (CBS-TA)");
+  const std::string chooses = "targets.cts.json: /agents/0: agent 'a0' chooses its goal; ";
+  for (const std::string to : {"o.scen", "o.mapfw.json"})
+    EXPECT_EQ(refused({"targets.cts.json", to}).substr(0, chooses.size()), chooses);
+  directory_.write("need.cts.json",
+                   replaced(kTasks, R"("agents":["a0","a1"])", R"("agents":"*","need":1)"));
+  const std::string needs = "need.cts.json: /tasks/0: task 't0' needs 1 of its 2 agents, which ";
+  EXPECT_EQ(refused({"need.cts.json", "o.mapfw.json"}).substr(0, needs.size()), needs);
+  EXPECT_EQ(refused({"need.cts.json", "o.mapfw.json", "--drop", "ids"}).substr(0, needs.size()),
+            needs);
+  EXPECT_EQ(refused({"need.cts.json", "o.yaml", "--to", "mgcbs"}).substr(0, needs.size()), needs);
+  EXPECT_EQ(refused({"need.cts.json", "o.yaml", "--to", "potential-goals"}),
+            "need.cts.json: /tasks/0: task 't0' cannot be represented in libMultiRobotPlanning's "
+            "YAML; expected no tasks (--drop tasks leaves the tasks out)");
+  converted({"need.cts.json", "o.scen", "--drop", "tasks"});
+  EXPECT_EQ(content("o.scen"), kScen);
+  converted({"need.cts.json", "again.cts.json"});
+  EXPECT_EQ(content("again.cts.json"), content("need.cts.json"));
+}
+
 TEST_F(ConvertCommand, GroveToMapfwAndBack) {
   converted({"tasks.cts.json", "o.mapfw.json"});
   converted({"o.mapfw.json", "back.cts.json", "--map", "m.map"});
@@ -229,20 +280,22 @@ TEST_F(ConvertCommand, FormatsAreDerivedOnlyFromKnownFileNames) {
   EXPECT_EQ(
       refused({"x.json", "o.yaml"}),
       "--from: required, because the suffix of 'x.json' is not that of a format; expected one of "
-      "grove, libmrp, mgcbs, mapfw, scen" +
+      "grove, libmrp, potential-goals, mgcbs, mapfw, scen" +
           kHint);
   EXPECT_EQ(refused({"plain.yaml", "o.txt"}),
             "--to: required, because the suffix of 'o.txt' is not that of a format; expected one "
             "of grove, "
-            "libmrp, mgcbs, mapfw, scen" +
+            "libmrp, potential-goals, mgcbs, mapfw, scen" +
                 kHint);
   EXPECT_EQ(
       refused({"--plan", "p.json", "plain.yaml", "o.txt"}),
       "--to: required, because the suffix of 'o.txt' is not that of a format; expected one of "
       "libmrp, mapf-visualizer, eecbs, tracker, tracker-csv, waypoints, nav-path, planviz" +
           kHint);
-  EXPECT_EQ(refused({"--from", "grv", "x.json", "o.yaml"}),
-            "--from: found 'grv'; expected one of grove, libmrp, mgcbs, mapfw, scen" + kHint);
+  EXPECT_EQ(
+      refused({"--from", "grv", "x.json", "o.yaml"}),
+      "--from: found 'grv'; expected one of grove, libmrp, potential-goals, mgcbs, mapfw, scen" +
+          kHint);
   EXPECT_EQ(converted({"--from", "grove", "x.json", "--to", "mapfw", "o.txt"}),
             "wrote o.txt: 2 agents, 2 tasks\n");
 }

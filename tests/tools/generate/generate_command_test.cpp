@@ -198,6 +198,114 @@ TEST(GenerateCommand, MarksExtrasInTheNamesOfADataset) {
                 "my_s1_n5_m10_d0-10.cts.json", "my_s1_n5_m10_turning3_headings_d2-5.cts.json"}));
 }
 
+TEST(GenerateCommand, MakesInstancesWithChoices) {
+  const TemporaryDirectory directory;
+  generate(directory, "map empty -o my.map");
+  const std::string start = "instance --map my.map --agents 6 --tasks 8 --seed 1 ";
+  EXPECT_EQ(generate(directory, start + "--need 1 --any-goal -o any.cts.json").out,
+            "wrote any.cts.json: 6 agents, 8 tasks\n");
+  const std::string text = file_content(directory / "any.cts.json");
+  EXPECT_NE(text.find(R"("agents":"*","need":1)"), std::string::npos) << text;
+  const Instance any = read_instance(directory / "any.cts.json").instance;
+  for (const Agent& agent : any.agents()) {
+    EXPECT_EQ(agent.goals.size(), 6U);
+    EXPECT_EQ(agent.options.size(), 8U);
+  }
+  const std::string half =
+      start + "--need 2 --eligible 3 --need-share 0.5 --goal-choices 2 --goal-share 0.5 ";
+  generate(directory, half + "-o half.cts.json");
+  generate(directory, half + "-o again.cts.json");
+  EXPECT_EQ(file_content(directory / "half.cts.json"), file_content(directory / "again.cts.json"));
+  const Instance some = read_instance(directory / "half.cts.json").instance;
+  EXPECT_EQ(
+      std::ranges::count_if(some.agents(), [](const Agent& a) { return a.goals.size() == 2; }), 3);
+  EXPECT_EQ(std::ranges::count_if(some.tasks(), [](const Task& t) { return !t.needs_all(); }), 4);
+  // The need of all agents is no choice.
+  generate(directory, start + "--need 6 --goal-groups 6 -o none.cts.json");
+  EXPECT_FALSE(read_instance(directory / "none.cts.json").instance.has_choices());
+}
+
+TEST(GenerateCommand, MarksChoicesInTheNamesOfADataset) {
+  const TemporaryDirectory directory;
+  generate(directory, "map empty -o my.map");
+  const std::string start = "dataset --map my.map --agents 5 --tasks 10 --output-dir set ";
+  for (const char* rest :
+       {"--need 1", "--need 1 --mg", "--need 2 --eligible 3 --need-share 0.5 --any-goal",
+        "--goal-choices 2 --durations 0-4", "--goal-groups 2 --goal-share 0.8"})
+    EXPECT_EQ(generate(directory, start + rest).exit_code, 0) << rest;
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(directory / "set"))
+    names.insert(entry.path().filename());
+  EXPECT_EQ(names,
+            (std::set<std::string>{"manifest.txt", "my_s1_n5_m10_d0-4_goals2.cts.json",
+                                   "my_s1_n5_m10_groups2-80pc.cts.json",
+                                   "my_s1_n5_m10_need1.cts.json", "my_s1_n5_m10_need1_mg.cts.json",
+                                   "my_s1_n5_m10_need2of3-50pc_anygoal.cts.json"}));
+}
+
+TEST(GenerateCommand, RefusesIncompatibleChoices) {
+  const TemporaryDirectory directory;
+  generate(directory, "map empty -o my.map");
+  const auto said = [&](const std::string& arguments) {
+    const std::string text = complaint(
+        generate(directory, "instance --map my.map --agents 5 --tasks 4 -o x " + arguments));
+    return text.substr(0, text.find(" (see "));
+  };
+  EXPECT_EQ(said("--need 0"), "--need: found '0'; expected an integer from 1 to 100000");
+  EXPECT_EQ(said("--need x"), "--need: found 'x'; expected an integer from 1 to 100000");
+  EXPECT_EQ(said("--need 6"), "--need: found 6; expected at most 5, the number of agents");
+  EXPECT_EQ(said("--eligible 2"), "--eligible: allowed only with --need");
+  EXPECT_EQ(said("--need 1 --eligible 6"),
+            "--eligible: found 6; expected at most 5, the number of agents");
+  EXPECT_EQ(said("--need 3 --eligible 2"),
+            "--eligible: found 2; expected at least 3, the value of --need");
+  EXPECT_EQ(said("--need-share 0.5"), "--need-share: allowed only with --need");
+  EXPECT_EQ(said("--need 1 --need-share 1.5"),
+            "--need-share: found '1.5'; expected a number from 0 to 1");
+  EXPECT_EQ(said("--need 1 --need-share nan"),
+            "--need-share: found 'nan'; expected a number from 0 to 1");
+  EXPECT_EQ(said("--any-goal --goal-choices 2"), "--goal-choices: allowed only without --any-goal");
+  EXPECT_EQ(said("--any-goal --goal-groups 2"), "--goal-groups: allowed only without --any-goal");
+  EXPECT_EQ(said("--goal-choices 2 --goal-groups 2"),
+            "--goal-groups: allowed only without --goal-choices");
+  EXPECT_EQ(said("--goal-choices 1"),
+            "--goal-choices: found '1'; expected an integer from 2 to 100000");
+  EXPECT_EQ(said("--goal-choices 6"),
+            "--goal-choices: found 6; expected at most 5, the number of agents that choose");
+  EXPECT_EQ(said("--goal-groups 4 --goal-share 0.6"),
+            "--goal-groups: found 4; expected at most 3, the number of agents that choose");
+  EXPECT_EQ(said("--goal-share 0.5"),
+            "--goal-share: allowed only with --any-goal, --goal-choices or --goal-groups");
+  for (const std::string option : {"--any-goal", "--goal-choices 2", "--goal-groups 2"})
+    EXPECT_EQ(said("--mg " + option), option.substr(0, option.find(' ')) +
+                                          ": allowed only if all agents have destinations");
+  const auto of_set = [&](const std::string& arguments) {
+    const std::string text = complaint(generate(directory, arguments + " --output-dir set"));
+    return text.substr(0, text.find(" (see "));
+  };
+  EXPECT_EQ(of_set("paper --any-goal"), "--any-goal: allowed only if all agents have destinations");
+  EXPECT_EQ(of_set("paper --agents 20,10 --need 11"),
+            "--need: found 11; expected at most 10, the number of agents");
+  EXPECT_EQ(of_set("dataset --map my.map --agents 5,10 --tasks 3 --goal-choices 6"),
+            "--goal-choices: found 6; expected at most 5, the number of agents that choose");
+  EXPECT_EQ(directory.files(), (std::vector<std::string>{"my.map"}));
+}
+
+TEST(GeneratePaper, MakesSetsWithChoices) {
+  const TemporaryDirectory directory;
+  const std::string start = "paper --scenarios 1 --agents 5 --tasks 10 --output-dir paper ";
+  EXPECT_EQ(generate(directory, start + "--need 1 --need-share 0.5").out,
+            "wrote paper/manifest.txt: 6 instances\n");
+  const auto names = lines_of(file_content(directory / "paper/manifest.txt"));
+  ASSERT_EQ(names.size(), 6U);
+  EXPECT_EQ(names[0], "empty-32x32_s1_n5_m10_need1-50pc.cts.json");
+  EXPECT_EQ(names[1], "empty-32x32_s1_n5_m10_need1-50pc_mg.cts.json");
+  EXPECT_EQ(lines_of(file_content(directory / "paper/manifest-mg.txt")).size(), 3U);
+  EXPECT_EQ(generate(directory, start + "--problem cts --goal-groups 2").out,
+            "wrote paper/manifest.txt: 3 instances\n");
+  EXPECT_TRUE(fs::exists(directory / "paper/rooms-32x32_s1_n5_m10_groups2.cts.json"));
+}
+
 TEST(GenerateCommand, RefusesIncompatibleOptions) {
   const TemporaryDirectory directory;
   generate(directory, "map empty -o my.map");
@@ -366,7 +474,8 @@ TEST(GenerateCommand, RefusesTooLargeCountsAndWritesNothing) {
       said("instance --map my.map --agents 50 --tasks 51 -o x"),
       "my.map: has 100 connected passable cells; expected at least 101 for 50 agents and 51 tasks");
   EXPECT_EQ(said("instance --map my.map --agents 1 --tasks 70 -o x"),
-            "my.map: 70 tasks for 1 agents do not fit: agent 'a0' must visit more than 64 tasks; expected "
+            "my.map: 70 tasks for 1 agents do not fit: agent 'a0' must visit more than 64 tasks; "
+            "expected "
             "at most 64");
   EXPECT_EQ(said("dataset --map my.map --scen my.scen --agents 5 --tasks 10,30 --output-dir set")
                 .substr(0, 21),

@@ -130,6 +130,23 @@ TEST(RoadmapInstance, DrawsDurations) {
   EXPECT_EQ(durations, (std::set<Time>{2, 3, 4}));
 }
 
+TEST(RoadmapInstance, DrawsChoices) {
+  const Instance plain = generate_instance(hall(), {.agents = 10, .tasks = 70});
+  const Instance instance = generate_instance(
+      hall(), {.agents = 10,
+               .tasks = 70,
+               .choices = {.need = 2, .goals = GoalChoice::kGroups, .goal_count = 2}});
+  for (const Task& task : instance.tasks()) {
+    EXPECT_EQ(task.need, 2);
+    EXPECT_EQ(task.agents.size(), 10U);
+  }
+  EXPECT_EQ(cells(instance), cells(plain));
+  for (AgentIndex i = 0; i < 10; ++i) {
+    EXPECT_EQ(instance.agent(i).goals.size(), 5U);
+    EXPECT_EQ(std::ranges::count(instance.agent(i).goals, plain.agent(i).goal.value()), 1);
+  }
+}
+
 TEST(RoadmapInstance, UsesTheLargestStrongComponent) {
   // A ring of four vertices, a ring of three from which it can be reached, and a ring of three that
   // can be reached from it.
@@ -160,8 +177,8 @@ TEST(RoadmapInstance, RefusesTooLargeCounts) {
             "hall.roadmap.json: has 10 vertices whose ids begin with 'p' that can all reach each "
             "other and where no agent starts; expected at least 11 for 11 tasks");
   EXPECT_EQ(refusal(hall(), {.agents = 1, .tasks = 70}),
-            "hall.roadmap.json: 70 tasks for 1 agents do not fit: agent 'a0' has more than 64 "
-            "tasks; expected at most 64");
+            "hall.roadmap.json: 70 tasks for 1 agents do not fit: agent 'a0' must visit more "
+            "than 64 tasks; expected at most 64");
 }
 
 // Compares the result with the reachability of each vertex.
