@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/adaptations.h"
+#include "engine/choices.h"
 
 namespace grove::detail {
 namespace {
@@ -98,25 +99,12 @@ void require_published_problem(Method method, const Instance& instance) {
     refuse(method, "supports at most one task of an agent on a cell; expected another method");
 }
 
-// Throws std::invalid_argument if an agent has a choice, because no method assigns tasks or
-// destinations yet.
-void require_no_choices(const Instance& instance) {
-  for (const Agent& agent : instance.agents()) {
-    if (!agent.goals.empty())
-      throw std::invalid_argument(
-          fmt::format("agent '{}' has a choice of goals, which no method supports yet; expected "
-                      "'goal'",
-                      agent.id));
-    if (!agent.options.empty())
-      throw std::invalid_argument(
-          fmt::format("task '{}' has a choice of agents, which no method supports yet; expected no "
-                      "'need' below the number of its agents",
-                      instance.task(agent.options.front()).id));
-  }
-}
-
 void require_fit(Method method, const Instance& instance, const SolveOptions& options) {
-  require_no_choices(instance);
+  if (instance.has_choices()) {
+    if (method != Method::kAuto)
+      refuse(method, "does not support tasks or goals that agents choose; expected method auto");
+    require_choices_fit(options);
+  }
   const auto ends_at_a_goal = [](const Agent& agent) { return agent.goal.has_value(); };
   if (is_adaptation(method) && std::ranges::all_of(instance.agents(), ends_at_a_goal))
     refuse(method,
@@ -140,6 +128,7 @@ Solution solve_by(Method method, bool anytime, const Instance& instance,
       return anytime ? solve_with_destinations_first(instance, options, limits, watcher)
                      : solve_with_destinations_last(instance, options, limits, watcher);
     default:
+      if (instance.has_choices()) return solve_with_choices(instance, options, limits, watcher);
       return solve(instance, options, limits, observer);
   }
 }

@@ -3,6 +3,7 @@
 #include "engine/solve.h"
 
 #include <new>
+#include <stdexcept>
 #include <string>
 
 #include "engine/checkpoint.h"
@@ -137,6 +138,10 @@ Solution stopped_before_search(const Instance& instance, const SolveOptions& opt
 
 std::optional<Solution> presolve(const Problem& problem, const SolveOptions& options,
                                  const Limits& limits, RunObserver& observer) {
+  if (problem.instance.has_choices())
+    throw std::invalid_argument(
+        "agents choose tasks or goals, which only 'grove solve' supports; expected an instance "
+        "without choices");
   if (!problem.distances.complete())
     return stopped_before_search(problem.instance, options, limits, observer);
   const auto reason = presolve_infeasibility(problem);

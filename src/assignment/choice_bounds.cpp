@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+// Proof of the lower bound. Conflicts between agents are ignored.
+//
+// *Base.* Let b(a, g) be a lower bound on the cost of a path of agent a that visits the tasks that
+// a must visit and ends on g. The agents end on different goals, so the sum of the base costs is at
+// least the least cost of an assignment of goals to agents. Agents without a destination add the
+// least cost of their required tasks.
+//
+// *Detours.* Let an agent that turns freely visit an optional task t between its stops i and j (a
+// stop is the start, a task or the goal). Without t it could go from i to j directly, so its cost
+// would fall by at least d(i, t) + d(t, j) - d(i, j), or by d(i, t) if t is its last stop. Let the
+// detour of (a, t) be the minimum of this over all i and j that the agent may have as stops, but at
+// least 0. *Claim: a path that visits the optional tasks T costs at least b(a, g) plus the detours
+// of T.* *Proof.* Remove the tasks one after the other. Each removal lowers the least cost of a
+// path through the remaining stops by at least the detour. (The order of the other stops stays the
+// same. The distances are exact: on the place of a task such an agent has only one base state, and
+// a leg to a task includes its execution.) In the end only the required tasks are left. An agent
+// without a destination that must visit a task still rests on a task that it visits: if the last
+// stop is removed, the stop before is a task. For agents whose turns take time, and for agents that
+// start at work on an optional task, the detours are taken as 0: leaving out a visit never makes a
+// path invalid, unless the agent rests there, and then it can end on its stop before.
+//
+// *Sum.* Each task is visited by at least `need` different agents, so its detours add up to at
+// least the sum of the `need` least ones.
+#include "assignment/choice_bounds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "assignment/route_costs.h"
+#include "sequencing/assignment.h"
+#include "sequencing/sum_of_best_sequences.h"
+
+namespace grove::detail {
+namespace {
+
+std::vector<Place> destinations_of(const Agent& agent) {
+  std::vector<Place> places = agent.goals;
+  if (agent.goal) places.push_back(*agent.goal);
+  return places;
+}
+
+bool can_visit(const Instance& instance, const DistanceFields& distances, AgentIndex index,
+               TaskIndex task) {
+  const Agent& agent = instance.agent(index);
+  if (distances.to_task(task)[agent.start] >= kNever) return false;
+  if (!agent.has_destination()) return true;
+  return min_distance_from(instance.world(), instance.task(task).cell, agent.kind,
+                           distances.to_rest(index)) < kNever;
+}
+
+// Matches agents to goals by augmenting paths.
+class GoalMatching {
+ public:
+  explicit GoalMatching(const Instance& instance) : instance_(instance) {
+    for (const Agent& agent : instance.agents())
+      for (const Place place : destinations_of(agent)) places_.push_back(place);
+    std::ranges::sort(places_);
+    places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
+    owner_.assign(places_.size(), kNobody);
+  }
+
+  // Returns agents whose goals are fewer than they are; empty if there are none.
+  std::vector<AgentIndex> too_many_agents() {
+    for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
+      if (!instance_.agent(agent).has_destination()) continue;
+      seen_.assign(places_.size(), false);
+      if (match(agent)) continue;
+      std::vector<AgentIndex> agents{agent};
+      for (std::size_t i = 0; i < places_.size(); ++i)
+        if (seen_[i]) agents.push_back(owner_[i]);
+      std::ranges::sort(agents);
+      return agents;
+    }
+    return {};
+  }
+
+ private:
+  static constexpr AgentIndex kNobody = -1;
+
+  bool match(AgentIndex agent) {
+    for (const Place place : destinations_of(instance_.agent(agent))) {
+      const auto i =
+          static_cast<std::size_t>(std::ranges::lower_bound(places_, place) - places_.begin());
+      if (seen_[i]) continue;
+      seen_[i] = true;
+      if (owner_[i] != kNobody && !match(owner_[i])) continue;
+      owner_[i] = agent;
+      return true;
+    }
+    return false;
+  }
+
+  const Instance& instance_;
+  std::vector<Place> places_;
+  std::vector<AgentIndex> owner_;  // by index in places_
+  std::vector<bool> seen_;
+};
+
+std::string names(const Instance& instance, const std::vector<AgentIndex>& agents) {
+  std::vector<std::string> ids;
+  for (const AgentIndex agent : agents) ids.push_back("'" + instance.agent(agent).id + "'");
+  return fmt::format("{}", fmt::join(ids, ", "));
+}
+
+class Bound {
+ public:
+  Bound(const Instance& instance, const DistanceFields& distances, const Limits& limits)
+      : instance_(instance),
+        distances_(distances),
+        limits_(limits),
+        costs_(instance, distances),
+        between_stops_(instance.tasks().size(), kUnknown) {
+    for (const Agent& agent : instance.agents())
+      if (agent.kind == 0)
+        for (const Place goal : destinations_of(agent)) goals_.push_back(goal);
+    std::ranges::sort(goals_);
+    goals_.erase(std::unique(goals_.begin(), goals_.end()), goals_.end());
+  }
+
+  Cost total() {
+    Cost sum = base();
+    for (TaskIndex task = 0; task < instance_.task_count(); ++task)
+      if (!instance_.task(task).needs_all() && !limits_.stop_requested()) sum += detours(task);
+    return sum;
+  }
+
+ private:
+  Cost base() const {
+    std::vector<Place> places;
+    for (const Agent& agent : instance_.agents())
+      for (const Place place : destinations_of(agent)) places.push_back(place);
+    std::ranges::sort(places);
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    Cost sum = 0;
+    std::vector<std::vector<std::int64_t>> cost;
+    for (AgentIndex i = 0; i < instance_.agent_count(); ++i) {
+      const Agent& agent = instance_.agent(i);
+      const Cost least = least_cost(i);
+      if (!agent.has_destination()) {
+        sum += least;
+        continue;
+      }
+      cost.emplace_back(places.size(), kForbidden);
+      for (const Place goal : destinations_of(agent)) {
+        const auto column = std::ranges::lower_bound(places, goal) - places.begin();
+        cost.back()[static_cast<std::size_t>(column)] = std::max(least, cost_to_end_on(i, goal));
+      }
+    }
+    const auto columns = min_cost_assignment(cost);
+    for (std::size_t row = 0; columns && row < cost.size(); ++row)
+      sum += cost[row][static_cast<std::size_t>((*columns)[row])];
+    return sum;
+  }
+
+  // A lower bound on the cost of the required tasks, wherever the agent ends.
+  Cost least_cost(AgentIndex agent) const {
+    if (instance_.agent(agent).is_idle()) return 0;
+    const RtspAnswer answer = best_sequence_cost(instance_, agent, distances_, limits_);
+    return answer.kind == RtspAnswer::Kind::kInfeasible ? 0 : answer.cost;
+  }
+  // A lower bound on the cost of the required tasks if the agent ends on `goal`.
+  Cost cost_to_end_on(AgentIndex index, Place goal) const {
+    Time cost = costs_.start_to_goal(index, goal);
+    for (const TaskIndex task : instance_.agent(index).tasks)
+      cost = std::max(cost, std::min(kNever, costs_.from_start(index, task) +
+                                                 costs_.to_goal(index, task, goal)));
+    return cost;
+  }
+
+  Cost detours(TaskIndex task) {
+    std::vector<Time> detours;
+    for (const AgentIndex agent : instance_.task(task).agents)
+      if (can_visit(instance_, distances_, agent, task)) detours.push_back(detour(agent, task));
+    std::ranges::sort(detours);
+    const auto need = std::min(static_cast<std::size_t>(instance_.task(task).need), detours.size());
+    return std::accumulate(detours.begin(), detours.begin() + static_cast<std::ptrdiff_t>(need),
+                           Cost{0});
+  }
+  Time detour(AgentIndex index, TaskIndex task) {
+    const Agent& agent = instance_.agent(index);
+    if (agent.kind > 0 || instance_.world().is_working(agent.start)) return 0;
+    const Time first = costs_.from_start(index, task);
+    Time least = detour_between_stops(index, task);
+    if (!agent.has_destination()) least = std::min({least, first, least_leg_to(index, task)});
+    for (TaskIndex next = 0; next < instance_.task_count() && least > 0; ++next)
+      if (next != task)
+        least = std::min(
+            least, first + costs_.between(index, task, next) - costs_.from_start(index, next));
+    for (const Place goal : destinations_of(agent))
+      least = std::min(
+          least, first + costs_.to_goal(index, task, goal) - costs_.start_to_goal(index, goal));
+    return std::max(least, 0);
+  }
+
+  // The least detour from any task to any task or goal, for agents that turn freely.
+  Time detour_between_stops(AgentIndex agent, TaskIndex task) {
+    Time& least = between_stops_[static_cast<std::size_t>(task)];
+    if (least != kUnknown) return least;
+    least = kNever;
+    for (TaskIndex before = 0; before < instance_.task_count() && least > 0; ++before) {
+      if (before == task) continue;
+      const Time leg = costs_.between(agent, before, task);
+      for (TaskIndex next = 0; next < instance_.task_count(); ++next)
+        if (next != task && next != before)
+          least = std::min(
+              least, leg + costs_.between(agent, task, next) - costs_.between(agent, before, next));
+      for (const Place goal : goals_)
+        least = std::min(
+            least, leg + costs_.to_goal(agent, task, goal) - costs_.to_goal(agent, before, goal));
+    }
+    return least = std::max(least, 0);
+  }
+  Time least_leg_to(AgentIndex agent, TaskIndex task) const {
+    Time least = kNever;
+    for (TaskIndex before = 0; before < instance_.task_count(); ++before)
+      if (before != task) least = std::min(least, costs_.between(agent, before, task));
+    return least;
+  }
+
+  static constexpr Time kUnknown = -1;
+
+  const Instance& instance_;
+  const DistanceFields& distances_;
+  const Limits& limits_;
+  const RouteCosts costs_;
+  std::vector<Place> goals_;         // of agents that turn freely
+  std::vector<Time> between_stops_;  // by task: detour_between_stops()
+};
+
+}  // namespace
+
+std::optional<std::string> infeasible_choices(const Instance& instance,
+                                              const DistanceFields& distances) {
+  for (TaskIndex i = 0; i < instance.task_count(); ++i) {
+    const Task& task = instance.task(i);
+    if (task.needs_all()) continue;
+    const auto able = std::ranges::count_if(
+        task.agents, [&](AgentIndex agent) { return can_visit(instance, distances, agent, i); });
+    if (able < task.need)
+      return fmt::format(
+          "task '{}' needs {} of its agents, but only {} can reach it and then a place "
+          "to rest",
+          task.id, task.need, able);
+  }
+  const std::vector<AgentIndex> agents = GoalMatching(instance).too_many_agents();
+  if (agents.empty()) return std::nullopt;
+  std::vector<Place> places;
+  for (const AgentIndex agent : agents)
+    for (const Place place : destinations_of(instance.agent(agent))) places.push_back(place);
+  std::ranges::sort(places);
+  const auto count = std::unique(places.begin(), places.end()) - places.begin();
+  return fmt::format("agents {} have only {} goals", names(instance, agents), count);
+}
+
+Cost lower_bound_of_choices(const Instance& instance, const DistanceFields& distances,
+                            const Limits& limits) {
+  return Bound(instance, distances, limits).total();
+}
+
+}  // namespace grove::detail

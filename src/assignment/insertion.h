@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Heuristic for assignments of low cost, without a bound.
+#pragma once
+
+#include <optional>
+
+#include "assignment/assignment.h"
+#include "model/distance_field.h"
+#include "model/instance.h"
+#include "model/limits.h"
+
+namespace grove::detail {
+
+// Returns a complete assignment by regret insertion (Potvin and Rousseau 1993) into the agents'
+// routes, without conflicts between agents, followed by local search: neither moving a visit to
+// another agent nor another choice of goals makes the routes cheaper. Returns nullopt if it finds
+// none, which proves nothing, or if a limit was reached. Both arguments must outlive the call;
+// `distances` must be complete.
+std::optional<Assignment> assignment_by_insertion(const Instance& instance,
+                                                  const DistanceFields& distances,
+                                                  const Limits& limits);
+
+}  // namespace grove::detail
