@@ -105,6 +105,7 @@ Json agent_json(const Instance& instance, AgentIndex index) {
   const Pose pose = instance.pose_of(agent.start);
   Json json{{"id", agent.id}, {"start", pose.place}};
   if (agent.goal) json["goal"] = *agent.goal;
+  if (!agent.goals.empty()) json["goals"] = agent.goals;
   if (agent.motion.turn_steps > 0) {
     json["turn"] = agent.motion.turn_steps;
     json["angle"] = angle_text(agent.motion, pose);
@@ -119,10 +120,16 @@ Json agent_json(const Instance& instance, AgentIndex index) {
   return json;
 }
 
+// Writes "*" for a task that any agent may visit, because there can be thousands of such tasks.
 Json tasks_json(const Instance& instance) {
   Json json = Json::array();
   for (const Task& task : instance.tasks()) {
-    json.push_back({{"id", task.id}, {"place", task.cell}, {"agents", task.agents}});
+    const bool is_for_any =
+        !task.needs_all() && std::ssize(task.agents) == instance.agent_count();
+    json.push_back({{"id", task.id},
+                    {"place", task.cell},
+                    {"agents", is_for_any ? Json("*") : Json(task.agents)}});
+    if (!task.needs_all()) json.back()["need"] = task.need;
     if (task.duration > 0) json.back()["duration"] = task.duration;
   }
   return json;

@@ -3,7 +3,7 @@
 """Checks that the page and `grove check` agree on the validity of plans.
 
 The instances are those in benchmarks/data and random ones of all kinds. Each plan is compared as solved and after
-random changes.
+random changes. In some instances the agents get choices afterwards, of which the plan is one.
 
 agreement_test.py GROVE NODE VERDICTS [--plans N] [--seed S]   VERDICTS: verdicts.ts, bundled for node
 """
@@ -113,6 +113,72 @@ def random_instance(rng, folder, number):
     return path
 
 
+def first_visit(path, cell, begin):
+    """Returns the first time from `begin` on at which the path is on the cell, or None."""
+    cell = cell if isinstance(cell, list) else [cell]
+    size = 1 if isinstance(cell[0], str) else 2
+    times = (t for t in range(begin, len(path)) if path[t][:size] == cell and (size == 2 or len(path[t]) == 1))
+    return next(times, None)
+
+
+def told_visits(agent, tasks):
+    """Returns the visits of the agent to its tasks, in their order: {task: (begin, end)}, or None if there are none."""
+    work = {piece["task"]: (piece["begin"], piece["end"]) for piece in agent.get("work", [])}
+    visits, now = {}, 0
+    for task in agent["sequence"]:
+        visit = work.get(task)
+        if visit is None:
+            time = first_visit(agent["path"], tasks[task]["cell"], min(now, len(agent["path"]) - 1))
+            if time is None:
+                return None
+            visit = time, time
+        visits[task] = visit
+        now = visit[1]
+    return visits
+
+
+def loosen_tasks(rng, data, plan):
+    """Gives tasks a choice of agents, and states their visits in the plan."""
+    tasks = {task["id"]: task for task in data["tasks"]}
+    everyone = [agent["id"] for agent in data["agents"]]
+    visits = {agent["id"]: told_visits(agent, tasks) for agent in plan["agents"]}
+    if None in visits.values():
+        return
+    for task in data["tasks"]:
+        visitors = task["agents"]
+        more = [agent for agent in everyone if agent not in visitors and rng.random() < 0.6]
+        need = rng.randint(1, len(visitors))
+        if rng.random() < 0.3 or need == len(visitors) + len(more):
+            continue
+        task["agents"] = rng.sample(visitors + more, len(visitors) + len(more))
+        if len(task["agents"]) == len(everyone) and rng.random() < 0.5:
+            task["agents"] = "*"
+        task["need"] = need
+        for agent in plan["agents"]:
+            if agent["id"] in visitors and not any(w["task"] == task["id"] for w in agent.get("work", [])):
+                begin, end = visits[agent["id"]][task["id"]]
+                agent.setdefault("work", []).append({"task": task["id"], "begin": begin, "end": end})
+
+
+def loosen_goals(rng, data):
+    places = [agent["goal"] for agent in data["agents"] if "goal" in agent] + [task["cell"] for task in data["tasks"]]
+    for agent in data["agents"]:
+        if "goal" in agent and rng.random() < 0.6:
+            goal = agent.pop("goal")
+            others = [place for i, place in enumerate(places) if place != goal and place not in places[:i]]
+            agent["goals"] = [goal, *rng.sample(others, min(len(others), rng.randint(0, 3)))]
+            rng.shuffle(agent["goals"])
+
+
+def loosen(rng, instance, plan):
+    """Gives the agents of the instance choices, of which the plan is one."""
+    data = json.loads(instance.read_text())
+    loosen_goals(rng, data)
+    if rng.random() < 0.8:
+        loosen_tasks(rng, data, plan)
+    instance.write_text(json.dumps(data))
+
+
 def generated_instance(rng, folder, number, run_grove):
     """Generates an instance with `grove generate` and returns its path."""
     path, seed = folder / f"{number}.cts.json", str(rng.randrange(1000))
@@ -134,7 +200,12 @@ def features(instance):
     agents, tasks = data["agents"], data.get("tasks", [])
     cells = [str(task["cell"]) for task in tasks]
     with_tasks = {agent for task in tasks for agent in task["agents"]}
+    needs = [task["need"] for task in tasks if "need" in task]
     found = {
+        "choice of goals": any(len(a.get("goals", [])) > 1 for a in agents),
+        "choice of agents": len(needs) > 0,
+        "choice of all agents": any(task["agents"] == "*" for task in tasks),
+        "need above 1": any(need > 1 for need in needs),
         "roadmap": "roadmap" in data,
         "start on a road": "roadmap" in data
         and any(isinstance(a["start"], list) and len(a["start"]) > 2 for a in agents),
@@ -256,6 +327,36 @@ def work_for_another(rng, plan):
         rng.choice(works)["task"] = rng.choice(tasks)
 
 
+def visit_by_another(rng, plan):
+    """Moves a stated visit to another agent."""
+    agents = [a for a in plan["agents"] if a.get("work")]
+    if agents:
+        agent = rng.choice(agents)
+        piece = agent["work"].pop(rng.randrange(len(agent["work"])))
+        if piece["task"] in agent["sequence"]:
+            agent["sequence"].remove(piece["task"])
+        other = rng.choice(plan["agents"])
+        other.setdefault("work", []).append(piece)
+        other["sequence"].insert(rng.randint(0, len(other["sequence"])), piece["task"])
+
+
+def drop_visit(rng, plan):
+    """Removes a stated visit, from the order of tasks as well."""
+    agents = [a for a in plan["agents"] if a.get("work")]
+    if agents:
+        agent = rng.choice(agents)
+        task = agent["work"].pop(rng.randrange(len(agent["work"])))["task"]
+        agent["sequence"] = [other for other in agent["sequence"] if other != task]
+
+
+def state_a_visit(rng, plan):
+    """States a visit of a task, on any place of the path."""
+    tasks = [task for agent in plan["agents"] for task in agent["sequence"]]
+    if tasks:
+        agent, time = rng.choice(plan["agents"]), rng.randint(0, 6)
+        agent.setdefault("work", []).append({"task": rng.choice(tasks), "begin": time, "end": time})
+
+
 def without_a_path(rng, plan):
     if rng.random() < 0.5:
         plan["agents"].pop(rng.randrange(len(plan["agents"])))
@@ -284,6 +385,7 @@ def change_bound(rng, plan):
 BREAKS = [shift_step, drop_step, cut_end, teleport, swap_tails, turn, unwind, change_work, drop_work, change_number,
           change_order, change_status, rest_longer, no_way, rest_on_another, work_again, work_for_another,
           without_a_path, huge_number, change_omega, change_bound]  # fmt: skip
+BREAKS_OF_VISITS = [visit_by_another, drop_visit, state_a_visit, change_work, cut_end]
 
 
 def path_lists(plan):
@@ -356,6 +458,8 @@ class Cases:
         data = self.solved(instance, plan)
         if data is None:
             return
+        if instance.parent == plan.parent and self.rng.random() < 0.5:
+            loosen(self.rng, instance, data)
         if self.rng.random() < 0.05:
             data = {key: data[key] for key in ("status", "lower_bound", "omega")}
         self.write(plan, data)
@@ -364,7 +468,8 @@ class Cases:
             return
         for _ in range(self.rng.choice([1, 1, 2])):
             if len(data["agents"]) > 0 and all(agent["path"] for agent in data["agents"]):
-                self.rng.choice(BREAKS)(self.rng, data)
+                breaks = BREAKS_OF_VISITS if self.rng.random() < 0.3 else BREAKS
+                self.rng.choice(breaks)(self.rng, data)
         self.write(plan, data)
         self.compare(instance, plan)
 

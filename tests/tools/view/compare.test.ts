@@ -59,8 +59,8 @@ test("differences have costs and the order of visits", () => {
     [{ path: "@0;EWS" }, { path: "@11;W" }, { path: "@8;" }],
     [{ path: "@0;SNE" }, { path: "@11;W" }, { path: "@8;3.E" }]);
   assert.deepEqual(found.all, [
-    { agent: 0, costs: [3, 3], costChange: 0, firstDifference: 1, hasOtherOrder: true },
-    { agent: 2, costs: [0, 4], costChange: 4, firstDifference: 4, hasOtherOrder: false },
+    { agent: 0, costs: [3, 3], costChange: 0, firstDifference: 1, hasOtherTasks: false, hasOtherOrder: true },
+    { agent: 2, costs: [0, 4], costChange: 4, firstDifference: 4, hasOtherTasks: false, hasOtherOrder: false },
   ]);
   assert.deepEqual(found.costs, [4, 8]);
   assert.equal(found.costChange, 4);
@@ -69,7 +69,7 @@ test("differences have costs and the order of visits", () => {
 test("costs are not compared if a path is missing", () => {
   const found = comparison([kFree, { id: "b", start: 11 }], [],
     [{ path: "@0;E" }, { path: "@11;W" }], [{ path: "" }, { path: "@11;W" }]);
-  assert.deepEqual(found.all, [{ agent: 0, costs: [1, NaN], costChange: NaN, firstDifference: 0, hasOtherOrder: false }]);
+  assert.deepEqual(found.all, [{ agent: 0, costs: [1, NaN], costChange: NaN, firstDifference: 0, hasOtherTasks: false, hasOtherOrder: false }]);
   assert.ok(Number.isNaN(found.costChange));
 });
 

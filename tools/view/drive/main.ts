@@ -4,6 +4,7 @@
 
 import { kDark, kLight } from "../page/colors";
 import { el } from "../page/dom";
+import { destinationsOf } from "../page/facts";
 import { listenToKeys } from "../page/keys";
 import { linkPage } from "../page/link";
 import type { Model } from "../page/model";
@@ -128,7 +129,7 @@ function sceneOf(app: DriveApp, frame: DriveNow) {
   const paths = new Paths(app.model, { plan }, null);
   return {
     frame,
-    facts: { tasks: app.tasks },
+    facts: { tasks: app.tasks, destinations: destinationsOf(app.model, plan) },
     paths: {
       paint: (c: CanvasRenderingContext2D, ...[camera, agent, time, colors]: Painted) =>
         paths.paint(c, camera, agent, app.order.planTime(agent, app.drive.actionsAt(agent, time)), colors),

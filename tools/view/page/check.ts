@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Finds the violations of a plan, from the contract (docs/design.md, sections 1 and 5) and the data of the
-// page only. It checks first each robot by itself, then collisions, then the claims of the file. The page
-// relies on no other verdict.
+// page only. It checks first each robot by itself, then the needs of tasks, then collisions, then the claims of
+// the file. The page relies on no other verdict.
 
 import { Occupancy, type ReportCollision } from "./occupancy";
 import { finish } from "./facts";
+import { hasChoice, hasDestination, isTold } from "./model";
 import type { Agent, AgentPlan, Angle, Model, Plan, WorkTime } from "./model";
 import type { Track, TurnTrack } from "./track";
 
 export type Kind =
-  | "path" | "start" | "jump" | "turn" | "work" | "end" | "visit" | "order" | "vertex" | "swap"
+  | "path" | "start" | "jump" | "turn" | "work" | "end" | "visit" | "order" | "need" | "vertex" | "swap"
   | "cost" | "claim";
 
 export interface Violation {
@@ -18,6 +19,7 @@ export interface Violation {
   agents: number[];
   place: number; // where it occurs; -1: nowhere in particular
   text: string;
+  task?: number; // of a need that is not met
 }
 
 const kMost = 1000; // violations, after which the search stops
@@ -71,6 +73,7 @@ export class Checker {
       yield* this.checkAgent(index);
       yield;
     }
+    yield* this.checkNeeds();
     yield* this.checkMoments();
   }
 
@@ -81,9 +84,31 @@ export class Checker {
       this.add("path", 0, [index], -1, `${agent.name} has no path`);
       return;
     }
-    const check = new AgentCheck(this.model, agent, plan, (kind, time, text, place) =>
+    const check = new AgentCheck(this.model, index, plan, (kind, time, text, place) =>
       this.add(kind, time, [index], place, `${agent.name} ${text}`));
     yield* check.run();
+  }
+
+  // Finds tasks with a choice of robots that too few of their robots visit. (If all robots must visit a task, the
+  // check of each robot finds its missing visit.)
+  private *checkNeeds(): Generator<void> {
+    const visitors = new Map<number, Set<number>>(); // by task
+    for (let robot = 0; robot < this.plan.agents.length; ++robot) {
+      for (const { task } of this.plan.agents[robot].work) {
+        if (!visitors.has(task)) visitors.set(task, new Set());
+        visitors.get(task)!.add(robot);
+      }
+      yield;
+    }
+    for (let index = 0; index < this.model.tasks.length && this.plan.agents.length > 0; ++index) {
+      const task = this.model.tasks[index];
+      if (!hasChoice(task)) continue;
+      const count = [...visitors.get(index) ?? []].filter((robot) => task.agents.includes(robot)).length;
+      if (count < task.need && this.violations.length < kMost)
+        this.violations.push({ time: this.end, kind: "need", agents: [], place: task.place, task: index,
+          text: `${task.name} is visited by ${count} of its ${task.agents.length} robots, but needs ${task.need}` });
+      yield;
+    }
   }
 
   // Finds, for each time, robots on the same place, and robots that swapped places in the step before.
@@ -154,13 +179,18 @@ type Report = (kind: Kind, time: number, text: string, place: number) => void;
 // Checks the path, task executions and visits of one robot, without regard to other robots.
 class AgentCheck {
   private steps = 0;
+  private readonly agent: Agent;
+  private readonly ownTasks: number[]; // tasks that it must visit, and those of which the plan states its visit
 
   constructor(
     private readonly model: Model,
-    private readonly agent: Agent,
+    private readonly index: number,
     private readonly plan: AgentPlan,
     private readonly report: Report,
-  ) {}
+  ) {
+    this.agent = model.agents[index];
+    this.ownTasks = [...new Set([...this.agent.tasks, ...plan.work.map(({ task }) => task)])];
+  }
 
   *run(): Generator<void> {
     this.checkStart();
@@ -264,7 +294,7 @@ class AgentCheck {
     for (const piece of this.plan.work) {
       this.checkPiece(piece);
       if (done.has(piece.task))
-        this.report("work", piece.begin, `executes ${this.taskName(piece)} twice`, -1);
+        this.report("work", piece.begin, `${this.does(piece)} twice`, -1);
       done.add(piece.task);
       yield;
     }
@@ -277,11 +307,12 @@ class AgentCheck {
         `does not continue ${this.model.tasks[working.task].name}, at which it starts`, -1);
   }
 
-  // Reports executions of different tasks at the same time. In order of their start times, it compares
-  // each execution only with the earlier one that ends last.
+  // Reports executions of different tasks at the same time. Visits without a duration may coincide with others. In
+  // order of their start times, it compares each execution only with the earlier one that ends last.
   private checkOverlaps(): void {
+    const executions = this.plan.work.filter(({ task }) => this.model.tasks[task].duration > 0);
     let longest: WorkTime | null = null;
-    for (const piece of [...this.plan.work].sort((a, b) => a.begin - b.begin || a.end - b.end)) {
+    for (const piece of executions.sort((a, b) => a.begin - b.begin || a.end - b.end)) {
       if (longest && piece.begin < longest.end && piece.task !== longest.task)
         this.report("work", piece.begin,
           `executes ${this.taskName(longest)} and ${this.taskName(piece)} at once`, -1);
@@ -293,15 +324,26 @@ class AgentCheck {
     return this.model.tasks[piece.task].name;
   }
 
+  // Returns a text such as "executes t" or, for a task without duration, "visits t".
+  private does(piece: WorkTime): string {
+    const { duration, name } = this.model.tasks[piece.task];
+    return `${duration > 0 ? "executes" : "visits"} ${name}`;
+  }
+
   private checkPiece(piece: WorkTime): void {
     const task = this.model.tasks[piece.task];
-    if (!this.agent.tasks.includes(piece.task) || task.duration === 0) {
-      this.report("work", piece.begin, `executes ${task.name}, which is not one of its tasks that take time`, -1);
+    if (!task.agents.includes(this.index)) {
+      this.report("work", piece.begin, `${this.does(piece)}, which is not one of its tasks`, -1);
+      return;
+    }
+    if (!isTold(task)) {
+      this.report("work", piece.begin,
+        `has a stated visit of ${task.name}, which it visits by being on its place`, -1);
       return;
     }
     if (piece.end - piece.begin !== task.duration)
       this.report("work", piece.begin,
-        `executes ${task.name} from ${piece.begin} to ${piece.end}, which takes ${task.duration}`,
+        `${this.does(piece)} from ${piece.begin} to ${piece.end}, which takes ${task.duration}`,
         task.place);
     const { working } = this.agent;
     const begun = working !== null && working.task === piece.task && working.done === -piece.begin;
@@ -311,7 +353,7 @@ class AgentCheck {
     const first = Math.max(0, piece.begin);
     if (this.place(first) !== task.place)
       this.report("work", first,
-        `executes ${task.name} on ${this.name(this.place(first))}, not on ${this.name(task.place)}`,
+        `${this.does(piece)} on ${this.name(this.place(first))}, not on ${this.name(task.place)}`,
         this.place(first));
     this.checkStill(first, piece);
   }
@@ -325,17 +367,27 @@ class AgentCheck {
   }
 
   private checkEnd(): void {
-    const { goal, goalAngle, tasks } = this.agent;
+    const { goal, goals, goalAngle } = this.agent;
     const end = this.plan.track.end;
     const at = this.place(end);
     const angle = this.angle(end);
     if (goal >= 0 && at !== goal)
       this.report("end", end,
         `ends on ${this.name(at)}, not on its destination ${this.name(goal)}`, at);
+    else if (goals.length > 0 && !goals.includes(at))
+      this.report("end", end,
+        `ends on ${this.name(at)}, which is none of the destinations that it may choose`, at);
     else if (goalAngle >= 0 && (angle.direction !== 0 || angle.steps !== goalAngle))
       this.report("end", end, "does not have its heading at the end", at);
-    if (goal < 0 && tasks.length > 0 && !tasks.some((task) => this.model.tasks[task].place === at))
+    if (!hasDestination(this.agent)) this.checkEndWithoutDestination(end, at, angle);
+  }
+
+  private checkEndWithoutDestination(end: number, at: number, angle: Angle): void {
+    const { tasks, hasOptions } = this.agent;
+    if (tasks.length > 0 && !this.ownTasks.some((task) => this.model.tasks[task].place === at))
       this.report("end", end, `ends on ${this.name(at)}, where it has no task`, at);
+    if (tasks.length === 0 && hasOptions && angle.direction !== 0)
+      this.report("end", end, "ends within a turn", at);
   }
 
   private *checkVisits(): Generator<void> {
@@ -343,7 +395,7 @@ class AgentCheck {
       const task = this.model.tasks[index];
       if (this.timeOfVisit(index, 0) === Infinity)
         this.report("visit", this.plan.track.end,
-          `never ${task.duration > 0 ? "does" : "visits"} ${task.name} on ${this.name(task.place)}`,
+          `never ${isTold(task) ? "does" : "visits"} ${task.name} on ${this.name(task.place)}`,
           task.place);
       yield;
     }
@@ -353,7 +405,7 @@ class AgentCheck {
   private timeOfVisit(index: number, begin: number): number {
     const task = this.model.tasks[index];
     const { track, work } = this.plan;
-    if (task.duration === 0) return track.firstTimeOn(task.place, begin);
+    if (!isTold(task)) return track.firstTimeOn(task.place, begin);
     const piece = work.find((w) => w.task === index);
     return piece && piece.end >= begin ? piece.end : Infinity;
   }
@@ -362,7 +414,7 @@ class AgentCheck {
     const order = this.plan.tasks;
     if (!order) return;
     const sorted = (tasks: number[]) => [...tasks].sort((a, b) => a - b).join();
-    if (sorted(order) !== sorted(this.agent.tasks)) {
+    if (sorted(order) !== sorted(this.ownTasks)) {
       this.report("order", 0, "does not have each of its tasks exactly once in its order", -1);
       return;
     }
@@ -378,12 +430,11 @@ class AgentCheck {
     this.checkLastOfOrder(order);
   }
 
-  // Reports a robot without a destination that does not rest on the last task of its order. If one of its
-  // tasks takes time, the robot may rest on any of them.
+  // Reports a robot without a destination that does not rest on the last task of its order. If the plan states
+  // one of its visits, the robot may rest on any of its tasks or, if it must visit none, anywhere.
   private checkLastOfOrder(order: number[]): void {
-    const { goal, tasks } = this.agent;
-    if (goal >= 0 || order.length === 0) return;
-    if (tasks.some((task) => this.model.tasks[task].duration > 0)) return;
+    if (hasDestination(this.agent) || order.length === 0) return;
+    if (order.some((task) => isTold(this.model.tasks[task]))) return;
     const end = this.plan.track.end;
     const last = this.model.tasks[order[order.length - 1]];
     if (this.place(end) !== last.place)

@@ -11,7 +11,8 @@ export interface Difference {
   costs: [number, number]; // in the first and second plan; NaN: no path
   costChange: number; // second cost minus first cost; NaN: one plan has no path
   firstDifference: number; // first time at which the plans differ for this robot; Infinity: never
-  hasOtherOrder: boolean; // whether the orders of the visits differ
+  hasOtherTasks: boolean; // whether the robot visits other tasks
+  hasOtherOrder: boolean; // whether it visits the same tasks in another order
 }
 
 export interface Comparison {
@@ -33,8 +34,11 @@ export function compare(model: Model, one: PlanView, other: PlanView): Compariso
     const costChange = both[1] - both[0];
     const firstDifference = partingTime(a, b);
     if (firstDifference === Infinity && a.track.isEmpty === b.track.isEmpty) return;
-    const order = (plan: AgentPlan) => visitsOf(model, plan, agent).map((v) => v.task).join();
-    all.push({ agent: index, costs: both, costChange, firstDifference, hasOtherOrder: order(a) !== order(b) });
+    const [first, second] = [a, b].map((plan) => visitsOf(model, plan, agent).map((v) => v.task));
+    const known = new Set(first);
+    const hasOtherTasks = first.length !== second.length || second.some((task) => !known.has(task));
+    const hasOtherOrder = !hasOtherTasks && first.join() !== second.join();
+    all.push({ agent: index, costs: both, costChange, firstDifference, hasOtherTasks, hasOtherOrder });
   });
   return { all, costs, costChange: complete ? costs[1] - costs[0] : NaN };
 }

@@ -4,7 +4,8 @@
 
 import type { App, PlanView } from "./app";
 import { plural } from "./dom";
-import type { Model } from "./model";
+import { doneTime } from "./facts";
+import { hasChoice, type Model } from "./model";
 import type { Wait } from "./waiting";
 
 export type EventKind = "wrong" | "wait" | "task" | "rest";
@@ -14,6 +15,7 @@ export interface PlanEvent {
   time: number;
   text: string;
   agents: number[];
+  task?: number; // of an event without agents
 }
 
 const kLongWait = 3; // steps; shorter waits are listed only for the selected robot
@@ -42,15 +44,18 @@ function merged(app: App, first: PlanEvent[], second: PlanEvent[]): PlanEvent[] 
 
 function eventsOfPlan(model: Model, { checker, facts, plan, waits }: PlanView): PlanEvent[] {
   const { agents, tasks } = model;
-  const wrong = checker.violations.map(({ time, text, agents }): PlanEvent =>
-    ({ kind: "wrong", time, text, agents }));
+  const wrong = checker.violations.map(({ time, text, agents, task }): PlanEvent =>
+    ({ kind: "wrong", time, text, agents, task }));
   const isLong = (wait: Wait) => wait.end - wait.begin >= kLongWait;
   const long = waits.all.filter(isLong).map((wait): PlanEvent =>
     ({ kind: "wait", time: wait.begin, agents: [wait.agent],
       text: `${agents[wait.agent].name} waits ${waitText(model, wait)}` }));
-  const done = facts.tasks.map(({ times, agents }, task): PlanEvent =>
-    ({ kind: "task", time: times[times.length - 1] ?? Infinity, agents: agents.slice(-1),
-      text: `${tasks[task].name} is done` }));
+  const done = tasks.map((task, index): PlanEvent => {
+    const last = facts.tasks[index].agents.slice(task.need - 1, task.need);
+    const by = hasChoice(task) ? last.map((agent) => ` by ${agents[agent].name}`).join("") : "";
+    return { kind: "task", time: doneTime(task, facts.tasks[index]), agents: last,
+      text: `${task.name} is done${by}` };
+  });
   const rest = facts.finish.map((time, agent): PlanEvent =>
     ({ kind: "rest", time: plan.agents[agent].track.isEmpty ? Infinity : time, agents: [agent],
       text: `${agents[agent].name} comes to rest` }));

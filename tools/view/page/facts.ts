@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Facts computed from the paths of a plan: activities of robots and visits of tasks, with their times.
 
-import type { Agent, AgentPlan, Model, Plan } from "./model";
+import { hasChoice, isTold } from "./model";
+import type { Agent, AgentPlan, Model, Plan, Task } from "./model";
 
 export enum Doing {
   kMoving,
@@ -99,19 +100,17 @@ function movingTimes(plan: AgentPlan): [number, number][] {
   return merged;
 }
 
-// Returns the time of the agent's visit of a task: the end of its execution or, for a task without duration,
-// the first time on its place; Infinity: never.
-export function visitTime(model: Model, plan: AgentPlan, task: number): number {
-  const { place, duration } = model.tasks[task];
-  if (duration > 0) {
-    const work = plan.work.find((w) => w.task === task);
-    return work ? work.end : Infinity;
-  }
-  return plan.track.firstTimeOn(place, 0);
+// Returns the time of the agent's visit of a task: the end of the visit that the plan states or, for a task of
+// which it states no visits, the first time on its place; Infinity: never.
+export function visitTime(model: Model, plan: AgentPlan, index: number): number {
+  const task = model.tasks[index];
+  if (!isTold(task)) return plan.track.firstTimeOn(task.place, 0);
+  const work = plan.work.find((w) => w.task === index);
+  return work ? work.end : Infinity;
 }
 
 export interface TaskFacts {
-  agents: number[]; // in order of their visits
+  agents: number[]; // in order of their visits; of a task with a choice of robots only those that visit it
   times: number[]; // of the visits, ascending; Infinity: never
   begin: number; // time of the first visit or, if earlier, start of the first execution; Infinity: never
 }
@@ -120,28 +119,58 @@ export interface PlanFacts {
   finish: number[]; // by agent
   spans: Span[][]; // by agent
   tasks: TaskFacts[];
+  destinations: number[]; // by agent; -1: none, or none of those that it may choose
   cost: number;
 }
 
 export function planFacts(model: Model, plan: Plan): PlanFacts {
   const finishes = plan.agents.map(finish);
+  const workers = workersOf(model, plan);
   return {
     finish: finishes,
     spans: plan.agents.map(spans),
-    tasks: model.tasks.map((task, index) => {
-      const visits = task.agents
-        .map((agent) => ({ agent, time: visitTime(model, plan.agents[agent], index) }))
-        .sort((a, b) => a.time - b.time || a.agent - b.agent);
-      const works = task.agents.flatMap((agent) => plan.agents[agent].work)
-        .filter((work) => work.task === index).map((work) => work.begin);
-      const begin = [...works, visits[0]?.time ?? Infinity].reduce((a, b) => Math.min(a, b));
-      return { agents: visits.map((v) => v.agent), times: visits.map((v) => v.time), begin };
-    }),
+    tasks: model.tasks.map((task, index) => taskFacts(model, plan, task, index, workers[index])),
+    destinations: destinationsOf(model, plan),
     cost: finishes.reduce((sum, time) => sum + time, 0),
   };
 }
 
-// Returns the number of the task's agents that have visited it by `time`.
+// Returns the destination of each agent or, if it has a choice, the one on which it rests; -1: none.
+export function destinationsOf({ agents }: Model, plan: Plan): number[] {
+  return plan.agents.map(({ track }, agent) => {
+    const { goal, goals } = agents[agent];
+    const end = track.isEmpty ? -1 : track.place(track.end);
+    return goal >= 0 ? goal : goals.includes(end) ? end : -1;
+  });
+}
+
+// Returns, for each task, the agents of which the plan states a visit.
+function workersOf(model: Model, plan: Plan): Set<number>[] {
+  const workers = model.tasks.map(() => new Set<number>());
+  plan.agents.forEach(({ work }, agent) => work.forEach(({ task }) => workers[task].add(agent)));
+  return workers;
+}
+
+function taskFacts(
+  model: Model, plan: Plan, task: Task, index: number, workers: Set<number>,
+): TaskFacts {
+  const agents = task.agents.filter((agent) => !hasChoice(task) || workers.has(agent));
+  const visits = agents
+    .map((agent) => ({ agent, time: visitTime(model, plan.agents[agent], index) }))
+    .sort((a, b) => a.time - b.time || a.agent - b.agent);
+  const works = agents.filter((agent) => workers.has(agent))
+    .flatMap((agent) => plan.agents[agent].work)
+    .filter((work) => work.task === index).map((work) => work.begin);
+  const begin = [...works, visits[0]?.time ?? Infinity].reduce((a, b) => Math.min(a, b));
+  return { agents: visits.map((v) => v.agent), times: visits.map((v) => v.time), begin };
+}
+
+// Returns the time at which as many agents have visited the task as it needs; Infinity: never.
+export function doneTime({ need }: Task, { times }: TaskFacts): number {
+  return times[need - 1] ?? Infinity;
+}
+
+// Returns the number of agents that have visited the task by `time`.
 export function visitsBy(facts: TaskFacts, time: number): number {
   let count = 0;
   while (count < facts.times.length && facts.times[count] <= time) ++count;
@@ -154,9 +183,10 @@ export interface Visit {
   time: number; // of the visit; Infinity: never
 }
 
-// Returns the agent's visits of its tasks, in order of time.
+// Returns the agent's visits of the tasks that it must visit, and of those that it visits by choice, in order of
+// time.
 export function visitsOf(model: Model, plan: AgentPlan, agent: Agent): Visit[] {
-  return agent.tasks
+  return [...new Set([...agent.tasks, ...plan.work.map(({ task }) => task)])]
     .map((task) => {
       const time = visitTime(model, plan, task);
       const work = plan.work.find((w) => w.task === task);

@@ -19,6 +19,10 @@ export class Value {
     return this.value === null;
   }
 
+  is(text: string): boolean {
+    return this.value === text;
+  }
+
   get isNumber(): boolean {
     return typeof this.value === "number" && Number.isFinite(this.value);
   }

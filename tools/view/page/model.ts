@@ -38,19 +38,22 @@ export interface Agent {
   id: string;
   name: string; // the id as displayed
   start: number;
-  goal: number; // destination; -1: none
+  goal: number; // destination; -1: none, or a choice
+  goals: number[]; // the places of which it chooses its destination
   turnSteps: number; // 0: turns freely
   startAngle: Angle;
   goalAngle: number; // at the destination; -1: any
   working: { task: number; done: number } | null;
-  tasks: number[];
+  tasks: number[]; // tasks that it must visit
+  hasOptions: boolean; // whether there are tasks that it may visit
 }
 
 export interface Task {
   id: string;
   name: string;
   place: number;
-  agents: number[];
+  agents: number[]; // the robots that must visit it or, if it needs fewer, may visit it
+  need: number; // at least this many of them must visit it
   duration: number;
 }
 
@@ -87,6 +90,21 @@ export interface Plan {
   claims: Claims;
   agents: AgentPlan[]; // empty: no plan
   end: number; // the last time at which something changes
+}
+
+// Returns whether robots choose to visit the task.
+export function hasChoice({ agents, need }: Task): boolean {
+  return need < agents.length;
+}
+
+// Returns whether a plan states the visits of the task, in `work`. Otherwise a robot visits the task by being on
+// its place.
+export function isTold(task: Task): boolean {
+  return task.duration > 0 || hasChoice(task);
+}
+
+export function hasDestination({ goal, goals }: Agent): boolean {
+  return goal >= 0 || goals.length > 0;
 }
 
 export interface Model {

@@ -3,6 +3,7 @@
 // it.
 
 const kLongest = 60;
+const kMostListed = 20;
 const kUnseen = /[\u0000-\u001f\u007f-\u009f\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]/g;
 const kRightToLeft = /[\u0590-\u08ff\ufb1d-\ufdff\ufe70-\ufefc]/;
 
@@ -39,4 +40,11 @@ function commonBeginning(names: string[]): string {
 export function shortened(text: string, most: number): string {
   if (text.length <= most) return text;
   return `${[...text.slice(0, 2 * most)].slice(0, most - 1).join("")}…`;
+}
+
+// Returns the first names with commas between them, and the number of the others.
+export function listed(names: string[]): string {
+  const rest = names.length - kMostListed;
+  const first = names.slice(0, kMostListed).join(", ");
+  return rest > 0 ? `${first} and ${rest.toLocaleString("en")} more` : first;
 }

@@ -2,6 +2,7 @@
 // Reads the data of the page (README.md) strictly: each unexpected value is an error.
 
 import { parse, type Value } from "./json";
+import { hasChoice } from "./model";
 import type { Agent, AgentPlan, Claims, Model, Plan, Task, World } from "./model";
 import { nameOf } from "./names";
 import { readAngle, readTrack, readTurns, stepsOnGrid, stepsOnRoads } from "./track";
@@ -17,13 +18,17 @@ export function readModel(text: string): Model {
   const world = readWorld(data.key("world"));
   const taskCount = data.key("tasks").list().length;
   const agents = data.key("agents").list().map((agent) => readAgent(agent, world, taskCount));
-  const tasks = data.key("tasks").list().map((task, index) => readTask(task, index, world, agents));
+  const everyone = [...agents.keys()];
+  const tasks = data.key("tasks").list().map((task, index) =>
+    readTask(task, index, world, agents, everyone));
   const plans = data.key("plans").list().map((plan) => readPlan(plan, world, agents, tasks));
   return { instance: nameOf(data.key("instance").text()), world, agents, tasks, plans };
 }
 
 function readAgent(data: Value, world: World, taskCount: number): Agent {
   const goal = data.key("goal");
+  const goals = data.key("goals");
+  if (goal.isThere && goals.isThere) goals.fail("'goal' or 'goals'");
   const turn = data.key("turn");
   const goalAngle = data.key("goalAngle");
   const working = data.key("working");
@@ -34,15 +39,17 @@ function readAgent(data: Value, world: World, taskCount: number): Agent {
     name: nameOf(data.key("id").text()),
     start: data.key("start").integer(0, world.places),
     goal: goal.isThere ? goal.integer(0, world.places) : -1,
+    goals: readGoals(goals, world),
     turnSteps,
     startAngle: turnSteps > 0
       ? data.key("angle").as((text) => readAngle(text, turnSteps)) : { steps: 0, direction: 0 },
     goalAngle: turnSteps > 0 && goalAngle.isThere ? goalAngle.integer(0, 4 * turnSteps) : -1,
     working: null,
     tasks: [],
+    hasOptions: false,
   };
   const ofTurning = turnSteps > 0 ? ["turn", "angle", "goalAngle"] : [];
-  data.only("id", "start", "goal", "working", ...ofTurning);
+  data.only("id", "start", "goal", "goals", "working", ...ofTurning);
   if (working.isThere) {
     const [task, done] = working.list(2);
     agent.working = { task: task.integer(0, taskCount), done: done.integer(0, kMostTime) };
@@ -50,17 +57,33 @@ function readAgent(data: Value, world: World, taskCount: number): Agent {
   return agent;
 }
 
-function readTask(data: Value, index: number, world: World, agents: Agent[]): Task {
+function readGoals(data: Value, world: World): number[] {
+  if (!data.isThere) return [];
+  const goals = data.list().map((place) => place.integer(0, world.places));
+  if (goals.length === 0) data.fail("a place at least");
+  return goals;
+}
+
+// `everyone`: all robots, for "*"; shared by the tasks, because each of thousands of tasks may have it.
+function readTask(
+  data: Value, index: number, world: World, agents: Agent[], everyone: number[],
+): Task {
   const duration = data.key("duration");
+  const need = data.key("need");
+  const own = data.key("agents");
+  const may = own.is("*") ? everyone : own.list().map((agent) => agent.integer(0, agents.length));
   const task: Task = {
     id: data.key("id").text(),
     name: nameOf(data.key("id").text()),
     place: data.key("place").integer(0, world.places),
-    agents: data.key("agents").list().map((agent) => agent.integer(0, agents.length)),
+    agents: may,
+    need: need.isThere ? need.integer(1, may.length + 1) : may.length,
     duration: duration.isThere ? duration.integer(0, kMostTime) : 0,
   };
-  data.only("id", "place", "agents", "duration");
-  for (const agent of task.agents) agents[agent].tasks.push(index);
+  data.only("id", "place", "agents", "need", "duration");
+  for (const agent of task.agents)
+    if (hasChoice(task)) agents[agent].hasOptions = true;
+    else agents[agent].tasks.push(index);
   return task;
 }
 

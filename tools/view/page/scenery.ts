@@ -5,10 +5,10 @@
 import { shapes } from "../palette.json";
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
-import { visitsBy, type TaskFacts } from "./facts";
-import type { Model, World } from "./model";
+import { visitsBy, type PlanFacts } from "./facts";
+import { hasChoice, type Model, type Point, type World } from "./model";
 import { labelsOf } from "./names";
-import { paintTasks } from "./tasks_canvas";
+import { dashesOf, paintTasks } from "./tasks_canvas";
 import { outlined } from "./text";
 
 const kLeastOwned = 34; // pixels per step, from which on destinations show the ids of their robots
@@ -19,6 +19,9 @@ export interface PathPainter {
     c: CanvasRenderingContext2D, camera: Camera, agent: number, time: number, colors: Colors,
   ): void;
 }
+
+// Facts about the plan that the scenery shows.
+export type SceneFacts = Pick<PlanFacts, "tasks" | "destinations">;
 
 export interface DisplayOptions {
   chosen: number; // the selected robot; -1: none
@@ -35,15 +38,20 @@ export class Scenery {
   private mapColors: Colors | null = null;
 
   private readonly tasksByPlace = new Map<number, number[]>();
-  private readonly goals: Set<number>;
+  private readonly goals: Set<number>; // destinations, and places that are destinations by choice
+  private readonly free: number[]; // places that a robot may choose as its destination, but no robot does
+  private readonly destinations: number[]; // by robot; -1: none, or not known
   private readonly owners: string[]; // by robot: label of its destination
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly model: Model,
-    private readonly facts: { readonly tasks: TaskFacts[] } | null,
+    private readonly facts: SceneFacts | null,
   ) {
-    this.goals = new Set(model.agents.map(({ goal }) => goal));
+    this.goals = new Set(model.agents.flatMap(({ goal, goals }) => [goal, ...goals]));
+    this.destinations = facts?.destinations ?? model.agents.map(({ goal }) => goal);
+    const taken = new Set(this.destinations);
+    this.free = [...new Set(model.agents.flatMap(({ goals }) => goals))].filter((place) => !taken.has(place));
     this.owners = labelsOf(model.agents.map(({ name }) => name), kMaxOwnerLabelLength);
     model.tasks.forEach(({ place }, index) => {
       const others = this.tasksByPlace.get(place);
@@ -123,16 +131,31 @@ export class Scenery {
     const { world, agents, tasks } = this.model;
     const step = world.unit * camera.scale;
     if (step < 3) return;
-    agents.forEach((agent, index) => {
-      if (agent.goal < 0) return;
-      const p = camera.toView(world.xs[agent.goal], world.ys[agent.goal]);
-      if (isOutside(p.x, p.y, step, camera)) return;
+    const r = Math.max(2, shapes.goalRadius * step);
+    const paintSquare = (place: number): Point | null => {
+      const p = camera.toView(world.xs[place], world.ys[place]);
+      if (isOutside(p.x, p.y, step, camera)) return null;
+      c.strokeRect(p.x - r, p.y - r, 2 * r, 2 * r);
+      return p;
+    };
+    c.strokeStyle = colors.goal;
+    c.lineWidth = 1.25;
+    c.setLineDash(dashesOf(step));
+    this.free.forEach(paintSquare);
+    c.setLineDash([]);
+    this.destinations.forEach((place, index) => {
+      if (place < 0) return;
       c.strokeStyle = index === shown.chosen ? colors.chosen : colors.goal;
       c.lineWidth = index === shown.chosen ? 2.5 : 1.25;
-      const r = Math.max(2, shapes.goalRadius * step);
-      c.strokeRect(p.x - r, p.y - r, 2 * r, 2 * r);
-      if (step >= kLeastOwned && shown.labels) this.paintOwner(c, p.x, p.y + r, index, step, colors);
+      const p = paintSquare(place);
+      if (p && step >= kLeastOwned && shown.labels) this.paintOwner(c, p.x, p.y + r, index, step, colors);
     });
+    c.strokeStyle = colors.chosen;
+    c.lineWidth = 1.5;
+    c.setLineDash(dashesOf(step));
+    for (const place of agents[shown.chosen]?.goals ?? [])
+      if (place !== this.destinations[shown.chosen]) paintSquare(place);
+    c.setLineDash([]);
     for (const [place, indices] of this.tasksByPlace) {
       const p = camera.toView(world.xs[place], world.ys[place]);
       if (isOutside(p.x, p.y, step, camera)) continue;
@@ -140,7 +163,8 @@ export class Scenery {
         index,
         begun: this.facts !== null && this.facts.tasks[index].begin <= time,
         visits: this.facts ? visitsBy(this.facts.tasks[index], time) : 0,
-        total: tasks[index].agents.length,
+        need: tasks[index].need,
+        isChoice: hasChoice(tasks[index]),
       }));
       paintTasks(c, p.x, p.y, step, states, indices.includes(shown.chosenTask), colors);
     }

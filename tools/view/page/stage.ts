@@ -5,14 +5,13 @@
 import { Camera } from "./camera";
 import type { Colors } from "./colors";
 import { el } from "./dom";
-import type { TaskFacts } from "./facts";
 import { listen } from "./gestures";
 import { Minimap } from "./minimap";
 import type { Model, Point } from "./model";
 import { Labels, type RobotPainter } from "./robots";
 import { AdaptiveRobotPainter } from "./robots_adaptive";
 import { nearest, type RobotsNow } from "./robots_now";
-import { Scenery, type PathPainter, type DisplayOptions } from "./scenery";
+import { Scenery, type DisplayOptions, type PathPainter, type SceneFacts } from "./scenery";
 
 // The selection and display options of a page, as a stage needs them.
 export interface PageState {
@@ -29,7 +28,7 @@ export interface PageState {
 // The objects that a stage displays.
 export interface Scene {
   readonly frame: RobotsNow;
-  readonly facts: { readonly tasks: TaskFacts[] } | null; // times of visits; null: without a plan
+  readonly facts: SceneFacts | null; // null: without a plan
   readonly paths: PathPainter | null;
   readonly label: string; // description for screen readers
   readonly caption: string; // empty: none
@@ -86,7 +85,8 @@ export class Stage {
   }
 
   // Selects the nearest robot within reach of this point. If there is none, selects a task there, otherwise a
-  // robot whose destination is there, otherwise nothing.
+  // robot whose destination is there, otherwise the only robot that may choose a destination there, otherwise
+  // nothing.
   private click(x: number, y: number): void {
     const { model } = this.app;
     const { world } = model;
@@ -98,7 +98,16 @@ export class Stage {
       place >= 0 && Math.hypot(world.xs[place] - p.x, world.ys[place] - p.y) < reach;
     const task = model.tasks.findIndex(({ place }) => isHere(place));
     if (task >= 0) this.app.chooseTask(task);
-    else this.app.choose(model.agents.findIndex(({ goal }) => isHere(goal)));
+    else this.app.choose(this.robotThatEnds(isHere));
+  }
+
+  private robotThatEnds(isHere: (place: number) => boolean): number {
+    const { agents } = this.app.model;
+    const destinations = this.scene.facts?.destinations ?? agents.map(({ goal }) => goal);
+    const owner = destinations.findIndex(isHere);
+    if (owner >= 0) return owner;
+    const may = [...agents.keys()].filter((agent) => agents[agent].goals.some(isHere));
+    return may.length === 1 ? may[0] : -1;
   }
 
   resize(): void {

@@ -14,23 +14,33 @@ export interface TaskState {
   index: number;
   begun: boolean; // a robot has visited it or started to execute it
   visits: number;
-  total: number;
+  need: number; // number of visits that it needs
+  isChoice: boolean; // whether more robots may visit it than it needs
 }
 
-// Paints the tasks on one place: pale at first, yellow after the first one has begun, grey when all are done.
+// Returns the dashes of an outline that marks a choice, in pixels.
+export function dashesOf(step: number): number[] {
+  const length = Math.max(2, Math.min(6, 0.12 * step));
+  return [length, 0.8 * length];
+}
+
+// Paints the tasks on one place: pale at first, yellow after the first one has begun, grey when all are done. The
+// outline is dashed if robots choose to visit one of them.
 export function paintTasks(
   c: CanvasRenderingContext2D, x: number, y: number, step: number, tasks: TaskState[],
   isChosen: boolean, colors: Colors,
 ): void {
-  const done = tasks.every(({ visits, total }) => visits >= total);
+  const done = tasks.every(({ visits, need }) => visits >= need);
   const begun = tasks.some((task) => task.begun);
   const r = Math.max(2.5, shapes.taskRadius * step);
   c.fillStyle = done ? colors.taskDone : begun ? colors.taskBegun : colors.taskOpen;
   c.strokeStyle = isChosen ? colors.chosen : done ? colors.goal : colors.task;
   c.lineWidth = isChosen ? 3 : 1.25;
+  c.setLineDash(tasks.some(({ isChoice }) => isChoice) ? dashesOf(step) : []);
   const apart = Math.max(1.5, shapes.stackOffset * step);
   for (let k = Math.min(shapes.maxStacked, tasks.length) - 1; k >= 0; --k)
     paintDiamond(c, x + k * apart, y - k * apart, r);
+  c.setLineDash([]);
   const color = done ? colors.faint : colors.text;
   if (tasks.length > 1 && step >= kLeastCounted) {
     c.font = `600 ${Math.min(16, 0.36 * step)}px system-ui, sans-serif`;
@@ -59,8 +69,8 @@ function paintTaskList(
   color: string, colors: Colors,
 ): void {
   const size = Math.min(18, Math.max(9, 0.16 * step));
-  const texts = tasks.slice(0, kMostListed).map(({ index, visits, total }) =>
-    `${index + 1}${total > 1 ? `: ${visits} of ${total}` : ""}`);
+  const texts = tasks.slice(0, kMostListed).map(({ index, visits, need }) =>
+    `${index + 1}${need > 1 ? `: ${visits} of ${need}` : ""}`);
   if (tasks.length > kMostListed) texts.push(`+ ${(tasks.length - kMostListed).toLocaleString("en")}`);
   c.font = `${size}px system-ui, sans-serif`;
   c.textAlign = "left";

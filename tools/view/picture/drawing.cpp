@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 #include <string>
 #include <variant>
 
@@ -72,17 +73,22 @@ void Drawing::measure_roadmap(const Roadmap& roadmap) {
   height_ = most.y - least.y + 2 * margin;
 }
 
+// The plan states the visits of some tasks, and an agent visits the others by being on their place.
+// A plan may be invalid and state a visit twice, or one of a task of other agents.
 void Drawing::note_visits(AgentIndex agent, const AgentPlan& plan) {
+  std::set<TaskIndex> noted;
+  for (const WorkTime& work : plan.work) {
+    const Task& task = instance_.task(work.task);
+    if (!task.is_told() || std::ranges::count(task.agents, agent) == 0) continue;
+    if (!noted.insert(work.task).second) continue;
+    Time& begin = begins_[static_cast<std::size_t>(work.task)];
+    visits_[static_cast<std::size_t>(work.task)].push_back(work.end);
+    begin = std::min(begin, work.begin);
+  }
   for (const TaskIndex task : instance_.agent(agent).tasks) {
+    if (instance_.task(task).is_told()) continue;
     auto& visits = visits_[static_cast<std::size_t>(task)];
     Time& begin = begins_[static_cast<std::size_t>(task)];
-    if (instance_.task(task).duration > 0) {
-      const auto work = std::ranges::find(plan.work, task, &WorkTime::task);
-      if (work == plan.work.end()) continue;
-      visits.push_back(work->end);
-      begin = std::min(begin, work->begin);
-      continue;
-    }
     const auto is_there = [&](State s) {
       return instance_.world().place(s) == instance_.task(task).cell;
     };
@@ -307,42 +313,65 @@ void Drawing::draw_arrow(cairo_t* cairo, int road) const {
   cairo_close_path(cairo);
 }
 
+// Draws destinations and, dashed, places that an agent may choose as its destination but no agent
+// does.
 void Drawing::draw_goals(cairo_t* cairo) const {
   set(cairo, kGoal);
   cairo_set_line_width(cairo, 0.05 * unit_);
-  for (const Agent& agent : instance_.agents()) {
-    if (!agent.goal) continue;
-    const Point at = point(*agent.goal);
-    const double r = kGoalRadius * unit_;
-    cairo_rectangle(cairo, at.x - r, at.y - r, 2 * r, 2 * r);
+  std::set<Place> taken;
+  std::set<Place> possible;
+  for (std::size_t i = 0; i < plan_->agents.size(); ++i) {
+    const Agent& agent = instance_.agent(static_cast<AgentIndex>(i));
+    const Path& path = plan_->agents[i].path;
+    possible.insert(agent.goals.begin(), agent.goals.end());
+    if (agent.goal) taken.insert(*agent.goal);
+    if (!has_plan() || path.empty()) continue;
+    const Place end = instance_.world().place(path.back());
+    if (std::ranges::count(agent.goals, end) > 0) taken.insert(end);
   }
+  for (const Place place : taken) add_square(cairo, place);
   cairo_stroke(cairo);
+  set_dashes(cairo, unit_);
+  for (const Place place : possible)
+    if (!taken.contains(place)) add_square(cairo, place);
+  cairo_stroke(cairo);
+  cairo_set_dash(cairo, nullptr, 0, 0);
+}
+
+void Drawing::add_square(cairo_t* cairo, Place place) const {
+  const Point at = point(place);
+  const double r = kGoalRadius * unit_;
+  cairo_rectangle(cairo, at.x - r, at.y - r, 2 * r, 2 * r);
 }
 
 // Draws the tasks on each place as a stack of diamonds with their number: pale before the first
-// visit or task execution starts, then yellow, and grey when all agents have visited all tasks.
+// visit or task execution starts, then yellow, and grey when all tasks have as many visits as they
+// need. The outline is dashed if agents choose to visit one of the tasks.
 void Drawing::draw_tasks(cairo_t* cairo, double time) const {
   struct Progress {
     int tasks = 0;
-    int visits = 0;
-    int total = 0;
+    bool done = true;
     bool begun = false;
+    bool has_choice = false;
   };
   std::map<Place, Progress> places;
   for (TaskIndex task = 0; task < instance_.task_count(); ++task) {
-    Progress& progress = places[instance_.task(task).cell];
+    const Task& shown = instance_.task(task);
+    Progress& progress = places[shown.cell];
     ++progress.tasks;
-    progress.visits += visits_by(task, time);
-    progress.total += static_cast<int>(instance_.task(task).agents.size());
+    progress.done = progress.done && visits_by(task, time) >= shown.need;
+    progress.has_choice = progress.has_choice || !shown.needs_all();
     progress.begun = progress.begun || begins_[static_cast<std::size_t>(task)] <= time;
   }
   for (const auto& [place, progress] : places) {
     const Point at = point(place);
-    const bool done = progress.visits >= progress.total;
+    const bool done = progress.done;
     const Color& color = done ? kTaskDone : progress.begun ? kTaskBegun : kTaskOpen;
+    if (progress.has_choice) set_dashes(cairo, unit_);
     for (int k = std::min(kMaxStacked, progress.tasks) - 1; k >= 0; --k)
       diamond(cairo, {at.x + kStackOffset * k * unit_, at.y - kStackOffset * k * unit_},
               kTaskRadius * unit_, color, done ? kGoal : kTask, 0.05 * unit_);
+    cairo_set_dash(cairo, nullptr, 0, 0);
     if (progress.tasks == 1) continue;
     set(cairo, kText);
     center_text(cairo, std::to_string(progress.tasks), at, 0.36 * unit_, 0.6 * unit_);

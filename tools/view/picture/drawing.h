@@ -54,6 +54,7 @@ class Drawing {
   void draw_roads(cairo_t* cairo) const;
   void draw_arrow(cairo_t* cairo, int road) const;
   void draw_goals(cairo_t* cairo) const;
+  void add_square(cairo_t* cairo, Place place) const;
   void draw_tasks(cairo_t* cairo, double time) const;
   void draw_vertex_names(cairo_t* cairo) const;
   void draw_robot(cairo_t* cairo, const Robot& robot) const;

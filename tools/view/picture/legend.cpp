@@ -45,15 +45,39 @@ bool has_work(const Instance& instance) {
   return std::ranges::any_of(instance.tasks(), [](const Task& t) { return t.duration > 0; });
 }
 
+bool has_choice_of_agents(const Instance& instance) {
+  return !std::ranges::all_of(instance.tasks(), &Task::needs_all);
+}
+
 bool has_goals(const Instance& instance) {
-  return std::ranges::any_of(instance.agents(), [](const Agent& a) { return a.goal.has_value(); });
+  return std::ranges::any_of(instance.agents(), &Agent::has_destination);
+}
+
+bool has_choice_of_goals(const Instance& instance) {
+  return std::ranges::any_of(instance.agents(), [](const Agent& a) { return !a.goals.empty(); });
+}
+
+// Draws the second row.
+void draw_choices(cairo_t* cairo, const Instance& instance) {
+  cairo_save(cairo);
+  cairo_translate(cairo, 0, kLegendRow);
+  set_dashes(cairo, 2 * kSize);
+  if (has_choice_of_agents(instance))
+    add_task(cairo, "needs only some robots", kTaskOpen, kTask);
+  if (has_choice_of_goals(instance)) add_goal(cairo, "possible destination");
+  cairo_restore(cairo);
 }
 
 }  // namespace
 
+int legend_rows(const Instance& instance) {
+  return has_choice_of_agents(instance) || has_choice_of_goals(instance) ? 2 : 1;
+}
+
 void draw_legend(cairo_t* cairo, const Instance& instance, bool has_plan) {
   cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cairo, 11);
+  cairo_save(cairo);
   if (has_plan) {
     add_robot(cairo, "moving", kMoving);
     add_robot(cairo, "waiting", kWaiting);
@@ -66,6 +90,8 @@ void draw_legend(cairo_t* cairo, const Instance& instance, bool has_plan) {
     add_task(cairo, "done", kTaskDone, kGoal);
   }
   if (has_goals(instance)) add_goal(cairo, "destination");
+  cairo_restore(cairo);
+  if (legend_rows(instance) > 1) draw_choices(cairo, instance);
 }
 
 }  // namespace grove::detail

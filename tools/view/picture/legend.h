@@ -8,7 +8,11 @@
 
 namespace grove::detail {
 
-// Draws the legend in one line from the origin. Leaves out shapes that cannot occur in the picture.
+inline constexpr int kLegendRow = 26;  // height of a row, in pixels
+
+// Returns 2 if the instance has choices, whose shapes are in a row of their own, otherwise 1.
+int legend_rows(const Instance& instance);
+// Draws the legend from the origin. Leaves out shapes that cannot occur in the picture.
 void draw_legend(cairo_t* cairo, const Instance& instance, bool has_plan);
 
 }  // namespace grove::detail

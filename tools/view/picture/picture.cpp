@@ -31,7 +31,6 @@ using Context = std::unique_ptr<cairo_t, Free>;
 constexpr int kGap = 12;           // pixels between two moments
 constexpr int kMaxPixels = 30000;  // maximum width and height; cairo's limit is 32767
 constexpr int kCaption = 20;       // height of the caption below each moment
-constexpr int kLegend = 26;        // height of the legend at the bottom
 constexpr int kMinWidthWithLegend = 640;
 
 cairo_status_t append(void* text, const unsigned char* bytes, unsigned length) {
@@ -53,7 +52,9 @@ struct Strip {
         caption(captioned && drawing.has_plan() ? kCaption : 0),
         columns(std::min<int>(static_cast<int>(count), 4)),
         rows((static_cast<int>(count) + columns - 1) / columns),
-        legend(captioned && whole_width() >= kMinWidthWithLegend ? kLegend : 0) {
+        legend(captioned && whole_width() >= kMinWidthWithLegend
+                   ? legend_rows(drawing.instance()) * kLegendRow
+                   : 0) {
     if (whole_width() > kMaxPixels || whole_height() > kMaxPixels)
       throw std::invalid_argument(
           fmt::format("found a picture of {} x {} pixels; expected at most {} in width and height",
@@ -98,7 +99,7 @@ void draw_strip(cairo_t* cairo, const Drawing& drawing, std::span<const double> 
   }
   if (strip.legend == 0) return;
   cairo_save(cairo);
-  cairo_translate(cairo, 4, strip.whole_height() - kLegend + 4);
+  cairo_translate(cairo, 4, strip.whole_height() - strip.legend + 4);
   draw_legend(cairo, drawing.instance(), drawing.has_plan());
   cairo_restore(cairo);
 }

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "tools/view/picture/shapes.h"
 
+#include <array>
 #include <numbers>
 
 namespace grove::detail {
 
 void set(cairo_t* cairo, const Color& color) {
   cairo_set_source_rgb(cairo, color.red, color.green, color.blue);
+}
+
+void set_dashes(cairo_t* cairo, double unit) {
+  const std::array lengths{0.12 * unit, 0.1 * unit};
+  cairo_set_dash(cairo, lengths.data(), static_cast<int>(lengths.size()), 0);
 }
 
 void center_text(cairo_t* cairo, const std::string& text, Point at, double size, double max) {

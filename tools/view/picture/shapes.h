@@ -13,6 +13,8 @@
 namespace grove::detail {
 
 void set(cairo_t* cairo, const Color& color);
+// Sets the dashes of an outline that marks a choice. `unit` is the length of a step.
+void set_dashes(cairo_t* cairo, double unit);
 
 // Draws a text of font size `size` centred on `at`; smaller if it would be wider than `max`.
 void center_text(cairo_t* cairo, const std::string& text, Point at, double size, double max);

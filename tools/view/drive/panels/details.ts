@@ -2,8 +2,10 @@
 // Panel of the selected robot or task: activity, progress and visits.
 
 import { el, setText } from "../../page/dom";
+import { hasChoice } from "../../page/model";
 import { head } from "../../page/panels/head";
 import { momentButton } from "../../page/panels/rows";
+import { needText } from "../../page/panels/task";
 import type { DriveApp } from "../app";
 import { clockText, doingText, lateSentence, progressText } from "../words";
 
@@ -66,15 +68,18 @@ export class Details {
       ...(visits.length > 0 ? [el("h4", {}, "Visits"), el("ul", { class: "moments" }, ...visits)] : [])];
   }
 
-  private task(task: number): HTMLElement[] {
+  // Lists the robots that must visit the task or, if it has a choice of robots, those that visit it in the plan.
+  private task(index: number): HTMLElement[] {
     const { app } = this;
-    const { name, agents, place } = app.model.tasks[task];
-    const visits = agents.map((agent) => {
-      const visit = app.order.visits(agent).find((v) => v.task === task);
-      return this.visit(visit ? app.visitTime(agent, visit.action) : Infinity,
-        app.model.agents[agent].name);
+    const task = app.model.tasks[index];
+    const visits = task.agents.flatMap((agent) => {
+      const visit = app.order.visits(agent).find((v) => v.task === index);
+      if (!visit && hasChoice(task)) return [];
+      return [this.visit(visit ? app.visitTime(agent, visit.action) : Infinity,
+        app.model.agents[agent].name)];
     });
-    return [head(app, `${task + 1}: ${name}`), el("p", {}, `On ${app.model.world.place(place)}.`),
+    return [head(app, `${index + 1}: ${task.name}`), el("p", {}, `On ${app.model.world.place(task.place)}.`),
+      ...(hasChoice(task) ? [el("p", {}, needText(app.model, task))] : []),
       el("h4", {}, "Visited by"), el("ul", { class: "moments" }, ...visits)];
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // List of robots with activity and progress: all, waiting, late, or those that need help.
 
-import { el, plural, setText } from "../../page/dom";
+import { el, setText } from "../../page/dom";
 import { kMostRows, rowElement, type Row } from "../../page/panels/rows";
 import type { DriveApp } from "../app";
 import { kDone, kWaiting, needsHelp } from "../drive";
@@ -96,7 +96,7 @@ export class Robots {
     this.body.replaceChildren(...this.rows.map(({ element }) => element));
     const rest = agents.length - kMostRows;
     if (rest > 0)
-      this.body.append(el("p", { class: "faint" }, `and ${plural(rest, "more")}: use the search`));
+      this.body.append(el("p", { class: "faint" }, `and ${rest.toLocaleString("en")} more: use the search`));
     if (agents.length === 0) this.body.append(el("p", { class: "faint" }, "none"));
   }
 

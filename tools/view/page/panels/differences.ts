@@ -75,10 +75,11 @@ function compareNumbers(a: number, b: number): number {
 }
 
 // Returns a text such as "96 → 97 (+1), different order".
-export function costsText({ costs, costChange, hasOtherOrder }: Difference): string {
+export function costsText({ costs, costChange, hasOtherOrder, hasOtherTasks }: Difference): string {
   const [a, b] = costs.map((cost) => (Number.isNaN(cost) ? "no path" : String(cost)));
   const change = Number.isNaN(costChange) ? "" : ` (${signed(costChange)})`;
-  return `${a} → ${b}${change}${hasOtherOrder ? ", different order" : ""}`;
+  const visits = hasOtherTasks ? ", different tasks" : hasOtherOrder ? ", different order" : "";
+  return `${a} → ${b}${change}${visits}`;
 }
 
 export function signed(difference: number): string {

@@ -64,13 +64,17 @@ export class Events {
 
   private row(event: PlanEvent): Row {
     const { app } = this;
+    const { task = -1 } = event;
     const [agent = -1] = event.agents;
     return {
       key: event.text.toLowerCase(),
       text: event.text,
       note: () => `step ${event.time}`,
       bad: event.kind === "wrong",
-      act: () => app.show(Math.max(0, event.time), agent),
+      act: () => {
+        app.show(Math.max(0, event.time), agent);
+        if (task >= 0) app.chooseTask(task);
+      },
     };
   }
 }

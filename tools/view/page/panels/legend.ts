@@ -4,7 +4,7 @@
 import type { App } from "../app";
 import { el } from "../dom";
 import type { Heat } from "../heat";
-import type { Model } from "../model";
+import { hasChoice, hasDestination, type Model } from "../model";
 
 type Entry = [string, string]; // CSS class and text
 
@@ -21,7 +21,9 @@ const kHeats: [Heat, string][] = [
   ["waits", "heat: waits"],
   ["yields", "heat: conflicts avoided"],
 ];
-const kGoals: Entry[] = [["goal", "destination"]];
+const kTaskChoice: Entry = ["task choice", "needs only some robots"];
+const kGoal: Entry = ["goal", "destination"];
+const kGoalChoice: Entry = ["goal choice", "possible destination"];
 
 // Returns the legend entries for robots, tasks and destinations. Leaves out those that the instance does not
 // have.
@@ -30,7 +32,9 @@ export function entriesOf(model: Model, robots: Entry[]): Entry[] {
   return [
     ...robots.filter(([kind]) => kind !== "working" || hasWork),
     ...(model.tasks.length > 0 ? kTasks : []),
-    ...(model.agents.some(({ goal }) => goal >= 0) ? kGoals : []),
+    ...(model.tasks.some(hasChoice) ? [kTaskChoice] : []),
+    ...(model.agents.some(hasDestination) ? [kGoal] : []),
+    ...(model.agents.some(({ goals }) => goals.length > 0) ? [kGoalChoice] : []),
   ];
 }
 

@@ -2,9 +2,10 @@
 // Lists of tasks, robots, events and differences, with one search field for all of them.
 
 import type { App } from "../app";
-import { el, plural, setText } from "../dom";
+import { el, setText } from "../dom";
 import { Differences } from "./differences";
 import { Events } from "./events";
+import { OpenTasks } from "./open_tasks";
 import { progressText } from "./task";
 import { kMostRows, rowElement, type Row } from "./rows";
 
@@ -18,6 +19,7 @@ export class Lists {
   private readonly buttons = new Map<Tab, HTMLButtonElement>();
   private readonly events: Events;
   private readonly differences: Differences | null;
+  private readonly openTasks: OpenTasks;
   private tab: Tab;
   private rows: Row[] = [];
   private notes: { element: HTMLElement; row: Row }[] = [];
@@ -27,6 +29,7 @@ export class Lists {
     const { comparison, model } = app;
     this.events = new Events(app, () => this.fill());
     this.differences = comparison ? new Differences(app, comparison, () => this.fill()) : null;
+    this.openTasks = new OpenTasks(app, () => this.fill());
     this.tab = this.differences ? "differences" : model.tasks.length > 0 ? "tasks" : "robots";
     this.search = el("input", {
       type: "search", placeholder: "Search robots and tasks ( / )",
@@ -56,6 +59,7 @@ export class Lists {
       this.events.forget();
       if (this.tab === "events") this.fill();
     }
+    if (this.openTasks.update() && this.tab === "tasks") this.fill();
     if (this.tab === "events" && this.events.choose(this.app.chosen)) this.fill();
     for (const { element, row } of this.notes) setText(element, row.note());
   }
@@ -83,8 +87,7 @@ export class Lists {
   private fill(): void {
     for (const [tab, button] of this.buttons)
       button.setAttribute("aria-pressed", String(tab === this.tab));
-    const filters = this.tab === "events" ? this.events.filters
-      : this.tab === "differences" ? this.differences!.filters : null;
+    const filters = this.filters;
     if (filters === null) this.top.replaceChildren();
     else if (!this.top.contains(filters)) this.top.replaceChildren(filters);
     this.rows = this.query === "" ? this.ofTab() : this.matching(this.query);
@@ -93,19 +96,29 @@ export class Lists {
     this.body.replaceChildren(...shown.map(({ element }) => element));
     const rest = this.rows.length - kMostRows;
     if (rest > 0)
-      this.body.append(el("p", { class: "faint" }, `and ${plural(rest, "more")}: use the search`));
+      this.body.append(el("p", { class: "faint" }, `and ${rest.toLocaleString("en")} more: use the search`));
     if (this.rows.length === 0) this.body.append(el("p", { class: "faint" }, this.nothing()));
     for (const { element, row } of this.notes) setText(element, row.note());
   }
 
+  private get filters(): HTMLElement | null {
+    switch (this.tab) {
+      case "events": return this.events.filters;
+      case "differences": return this.differences!.filters;
+      case "tasks": return this.app.viewed.length > 0 ? this.openTasks.filters : null;
+      default: return null;
+    }
+  }
+
   private nothing(): string {
+    if (this.tab === "tasks" && this.query === "") return "no task is open";
     const isSame = this.tab === "differences" && this.query === "";
     return isSame ? "every robot does the same in both plans" : "no matches";
   }
 
   private ofTab(): Row[] {
     switch (this.tab) {
-      case "tasks": return this.tasks();
+      case "tasks": return this.tasks().filter((_, task) => this.openTasks.shows(task));
       case "robots": return this.robots();
       case "events": return this.events.rows("");
       case "differences": return this.differences!.rows();

@@ -2,7 +2,7 @@
 // A list of events, each with a button that goes to its time.
 
 import type { App } from "../app";
-import { el, plural } from "../dom";
+import { el } from "../dom";
 import { momentButton } from "./rows";
 
 const kMost = 200;
@@ -21,6 +21,6 @@ export function moments<T>(app: App, things: T[], describe: (thing: T) => Moment
         : el("span", { class: "moment bad" }, "never"),
       " ", el("span", { dir: "auto" }, text)));
   const rest = things.length - kMost;
-  if (rest > 0) items.push(el("li", { class: "faint" }, `and ${plural(rest, "more")}`));
+  if (rest > 0) items.push(el("li", { class: "faint" }, `and ${rest.toLocaleString("en")} more`));
   return el("ul", { class: "moments" }, ...items);
 }

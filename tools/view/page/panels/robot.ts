@@ -5,6 +5,8 @@ import { violationsOf, type App, type PlanView } from "../app";
 import { el, plural, setText } from "../dom";
 import { waitText } from "../events";
 import { Doing, visitsOf, type Span, type Visit } from "../facts";
+import { hasChoice, type Task } from "../model";
+import { listed } from "../names";
 import { comparedDetails } from "./compared";
 import { head } from "./head";
 import { moments, type Moment } from "./moments";
@@ -30,15 +32,25 @@ export class RobotDetails {
   // Returns the data of the robot in the instance, for an instance without a plan.
   private asked(): HTMLElement[] {
     const { agents, tasks, world } = this.app.model;
-    const { start, goal, tasks: own } = agents[this.agent];
+    const { start, goal, goals, tasks: own } = agents[this.agent];
     const line = (text: string) => el("p", {}, text);
+    const options = this.options;
     return [
       line(`Starts on ${world.place(start)}.`),
-      line(own.length > 0 ? `Must visit ${own.map((task) => tasks[task].name).join(", ")}.`
-        : "Has no tasks."),
+      ...(own.length > 0 ? [line(`Must visit ${own.map((task) => tasks[task].name).join(", ")}.`)] : []),
+      ...(options.length > 0 ? [line(`May visit ${listed(options.map(({ name }) => name))}.`)] : []),
+      ...(own.length + options.length === 0 ? [line("Has no tasks.")] : []),
       line(goal >= 0 ? `Ends on ${world.place(goal)}.`
+        : goals.length > 0 ? `Ends on one of ${listed(goals.map((place) => world.place(place)))}.`
         : own.length > 0 ? "Ends on one of its tasks." : "May end anywhere."),
     ];
+  }
+
+  // The tasks that the robot may visit.
+  private get options(): Task[] {
+    const { agents, tasks } = this.app.model;
+    if (!agents[this.agent].hasOptions) return [];
+    return tasks.filter((task) => hasChoice(task) && task.agents.includes(this.agent));
   }
 
   update(): void {
@@ -59,6 +71,7 @@ export class RobotDetails {
       ...title,
       now,
       el("p", {}, `Cost ${rest}: the robot is at rest from that step on.`),
+      ...this.choices(viewed),
       ...this.list("Problems", violationsOf(viewed, this.agent), (wrong) => wrong, "bad"),
       ...(this.app.viewed.length > 1 ? []
         : this.list("Visits", this.visits(viewed), (visit) => this.visit(visit))),
@@ -66,6 +79,22 @@ export class RobotDetails {
         time: wait.begin,
         text: waits.done ? waitText(model, wait) : plural(wait.end - wait.begin, "step"),
       })),
+    ];
+  }
+
+  // Returns the choices of the robot: its destination, and how many of the tasks that it may visit it visits.
+  private choices({ facts, plan }: PlanView): HTMLElement[] {
+    const { agents, tasks, world } = this.app.model;
+    const { goals } = agents[this.agent];
+    const end = facts.destinations[this.agent];
+    const options = this.options.length;
+    const chosen = new Set(plan.agents[this.agent].work.map(({ task }) => task)
+      .filter((task) => hasChoice(tasks[task]))).size;
+    return [
+      ...(goals.length > 0 && end >= 0 ? [el("p", {}, `Ends on ${world.place(end)}, its choice of ` +
+        `${plural(goals.length, "possible destination")}.`)] : []),
+      ...(options > 0 ? [el("p", {}, `Visits ${chosen.toLocaleString("en")} of ` +
+        `${plural(options, "task")} that it may visit.`)] : []),
     ];
   }
 
@@ -85,7 +114,7 @@ export class RobotDetails {
   // its execution.
   private visit({ task, begin, time }: Visit): Moment {
     const { duration, name } = this.app.model.tasks[task];
-    const what = `${task + 1}: ${name}`;
+    const what = `${task + 1}: ${name}${hasChoice(this.app.model.tasks[task]) ? " (by choice)" : ""}`;
     if (time === Infinity) return { time, text: what };
     return { time: begin, text: duration > 0 ? `${what}, at work until ${time}` : what };
   }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Details of the selected task: its place, its visits with their times, and its progress.
+// Details of the selected task: its place, the robots that must or may visit it, its visits with their times, and
+// its progress.
 
 import type { App } from "../app";
 import { el, plural } from "../dom";
 import { visitsBy } from "../facts";
+import { hasChoice, type Model, type Task } from "../model";
+import { listed } from "../names";
 import { moments } from "./moments";
 
 export function taskDetails(app: App, index: number): HTMLElement[] {
@@ -14,26 +17,36 @@ export function taskDetails(app: App, index: number): HTMLElement[] {
     const { agents, times } = facts.tasks[index];
     const title = app.viewed.length > 1 ? [el("h3", {}, plan.name)] : [];
     const describe = (i: number) => ({ time: times[i], text: model.agents[agents[i]].name });
-    return [...title, moments(app, [...times.keys()], describe)];
+    const missing = task.need - times.length;
+    return [...title, moments(app, [...times.keys()], describe),
+      ...(missing > 0 ? [el("p", { class: "bad" }, `${plural(missing, "visit")} missing`)] : [])];
   });
   const who = task.duration > 0 ? "Work ends, by" : "Visited, by";
-  const order = task.agents.length > 1 ? " (in this order)" : "";
+  const order = task.need > 1 ? " (in this order)" : "";
   return [
     el("p", { class: "faint" }, `On ${model.world.place(task.place)}${takes}`),
-    el("h4", {}, app.viewed.length > 0 ? who + order : "To be visited by"),
-    ...(app.viewed.length > 0 ? rows : [el("p", {}, names(app, task.agents))]),
+    ...(hasChoice(task) ? [el("p", {}, needText(model, task))] : []),
+    ...(app.viewed.length > 0 ? [el("h4", {}, who + order), ...rows]
+      : hasChoice(task) ? []
+      : [el("h4", {}, "To be visited by"), el("p", {}, names(model, task.agents))]),
   ];
 }
 
-function names(app: App, agents: number[]): string {
-  const some = agents.slice(0, 20).map((agent) => app.model.agents[agent].name).join(", ");
-  return agents.length > 20 ? `${some} and ${plural(agents.length - 20, "more")}` : some;
+// Returns a text such as "Needs 1 of 12 robots: any." or "Needs 2 of 3 robots: a, b, c.".
+export function needText(model: Model, { agents, need }: Task): string {
+  const which = agents.length === model.agents.length ? "any" : names(model, agents);
+  return `Needs ${need} of ${plural(agents.length, "robot")}: ${which}.`;
 }
 
-// Returns a text such as "2 of 3": 2 of the 3 robots that must visit the task have visited it. For two plans
-// it has one number for each: "2 / 1 of 3".
-export function progressText(app: App, task: number): string {
-  const total = app.model.tasks[task].agents.length;
-  const counts = app.viewed.map(({ facts }) => visitsBy(facts.tasks[task], app.player.time));
-  return `${counts.length > 0 ? counts.join(" / ") : 0} of ${total}`;
+function names(model: Model, agents: number[]): string {
+  return listed(agents.map((agent) => model.agents[agent].name));
+}
+
+// Returns a text such as "2 of 3": the task needs 3 visits, and 2 robots have visited it; with a choice of robots
+// "0 of 1 (any of 12)". For two plans it has one number for each: "2 / 1 of 3".
+export function progressText(app: App, index: number): string {
+  const task = app.model.tasks[index];
+  const counts = app.viewed.map(({ facts }) => visitsBy(facts.tasks[index], app.player.time));
+  const choice = hasChoice(task) ? ` (any of ${task.agents.length})` : "";
+  return `${counts.length > 0 ? counts.join(" / ") : 0} of ${task.need}${choice}`;
 }

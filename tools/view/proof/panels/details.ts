@@ -2,6 +2,9 @@
 // Details of the selected step: its statement, why it holds, and the constraints in force there.
 
 import { el } from "../../page/dom";
+import { hasChoice } from "../../page/model";
+import { listed } from "../../page/names";
+import { needText } from "../../page/panels/task";
 import type { ProofApp } from "../app";
 import { constraintsAt, usersOf, type Statement, type Step } from "../certificate";
 import { agentsText, closedText, constraintText, lemmaText, stepText, whyText } from "../words";
@@ -83,13 +86,16 @@ export class Details {
     const { marked, chosenTask, model } = this.app;
     const { world } = model;
     if (chosenTask >= 0) {
-      const { name, place, agents } = model.tasks[chosenTask];
-      return [el("h3", {}, name), el("p", {}, `A task of ${agentsText(model, agents)} on ${world.place(place)}.`)];
+      const task = model.tasks[chosenTask];
+      const whose = hasChoice(task) ? needText(model, task) : `Of ${agentsText(model, task.agents)}.`;
+      return [el("h3", {}, task.name), el("p", {}, `A task on ${world.place(task.place)}. ${whose}`)];
     }
     if (marked < 0) return [];
-    const { name, start, goal } = model.agents[marked];
-    return [el("h3", {}, name), el("p", {}, `Starts on ${world.place(start)}` +
-      `${goal >= 0 ? `, ends on ${world.place(goal)}` : ""}. Constraints on it are bold in the tree.`)];
+    const { name, start, goal, goals } = model.agents[marked];
+    const end = goal >= 0 ? `, ends on ${world.place(goal)}`
+      : goals.length > 0 ? `, ends on one of ${listed(goals.map((place) => world.place(place)))}` : "";
+    return [el("h3", {}, name),
+      el("p", {}, `Starts on ${world.place(start)}${end}. Constraints on it are bold in the tree.`)];
   }
 }
 
