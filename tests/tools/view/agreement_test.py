@@ -121,7 +121,7 @@ def first_visit(path, cell, begin):
     return next(times, None)
 
 
-def told_visits(agent, tasks):
+def stated_visits(agent, tasks):
     """Returns the visits of the agent to its tasks, in their order: {task: (begin, end)}, or None if there are none."""
     work = {piece["task"]: (piece["begin"], piece["end"]) for piece in agent.get("work", [])}
     visits, now = {}, 0
@@ -141,7 +141,7 @@ def loosen_tasks(rng, data, plan):
     """Gives tasks a choice of agents, and states their visits in the plan."""
     tasks = {task["id"]: task for task in data["tasks"]}
     everyone = [agent["id"] for agent in data["agents"]]
-    visits = {agent["id"]: told_visits(agent, tasks) for agent in plan["agents"]}
+    visits = {agent["id"]: stated_visits(agent, tasks) for agent in plan["agents"]}
     if None in visits.values():
         return
     for task in data["tasks"]:

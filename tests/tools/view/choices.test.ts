@@ -6,7 +6,7 @@ import { check } from "../../../tools/view/page/check";
 import { compare } from "../../../tools/view/page/compare";
 import { doneTime, planFacts, visitsBy, visitsOf } from "../../../tools/view/page/facts";
 import type { PlanView } from "../../../tools/view/page/app";
-import { hasChoice, isTold, type Model, type Plan } from "../../../tools/view/page/model";
+import { hasChoice, hasStatedVisits, type Model, type Plan } from "../../../tools/view/page/model";
 import { kGrid, model, type AgentData } from "./models";
 
 // a may end on 3 or 8; b ends on 4; c has no destination. The grid has 4 x 3 cells, and 5 is blocked.
@@ -47,7 +47,7 @@ test("choices are read", () => {
   assert.deepEqual(m.agents.map(({ tasks, hasOptions }) => [tasks, hasOptions]), [[[], true], [[], true], [[2], true]]);
   assert.deepEqual(m.tasks.map(({ agents, need }) => [agents, need]), [[[0, 1, 2], 1], [[0, 1, 2], 2], [[2], 1]]);
   assert.deepEqual(m.tasks.map(hasChoice), [true, true, false]);
-  assert.deepEqual(m.tasks.map(isTold), [true, true, false]);
+  assert.deepEqual(m.tasks.map(hasStatedVisits), [true, true, false]);
   const all = model(kGrid, kAgents, [{ id: "t", place: 1, agents: "*" }], [{ path: "" }, { path: "" }, { path: "" }]);
   assert.deepEqual([all.tasks[0].need, hasChoice(all.tasks[0])], [3, false]);
 });

@@ -114,6 +114,60 @@ TEST_F(ViewCommand, ShowsPathsOfOtherSolversWithoutClaims) {
   EXPECT_EQ(plan["agents"][0]["path"], "@0;@2;");  // a jump, unchanged
 }
 
+class ViewOfChoices : public ViewCommand {
+ protected:
+  // a may end on either end of the corridor, and one of a and b must visit "any".
+  ViewOfChoices() {
+    directory_.write("m.map", "type octile\nheight 2\nwidth 3\nmap\n...\n...\n");
+    directory_.write("i.json", R"({"map": "m.map",
+        "agents": [{"id": "a", "start": [1, 0], "goals": [[0, 0], [2, 0]]},
+                   {"id": "b", "start": [0, 1]}],
+        "tasks": [{"id": "any", "cell": [1, 1], "agents": "*", "need": 1},
+                  {"id": "all", "cell": [0, 1], "agents": ["b"]},
+                  {"id": "some", "cell": [1, 0], "agents": ["a"], "need": 1}]})");
+    directory_.write("plan.json", R"({"status": "feasible", "cost": 3, "lower_bound": 0, "omega": 0,
+        "agents": [{"id": "a", "sequence": ["some"], "cost": 1, "path": [[1, 0], [2, 0]]},
+                   {"id": "b", "sequence": ["any", "all"], "cost": 2,
+                    "path": [[0, 1], [1, 1], [0, 1]],
+                    "work": [{"task": "any", "begin": 1, "end": 1}]}]})");
+  }
+};
+
+TEST_F(ViewOfChoices, DataHaveChoicesAndStatedVisits) {
+  const ProcessResult done = run_grove(
+      {"view", directory_ / "i.json", directory_ / "plan.json", "-o", directory_ / "p.html"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const nlohmann::json page = data_of("p.html");
+  EXPECT_EQ(page["agents"][0]["goals"], nlohmann::json({0, 2}));
+  EXPECT_FALSE(page["agents"][0].contains("goal"));
+  EXPECT_FALSE(page["agents"][1].contains("goals"));
+  EXPECT_EQ(page["tasks"][0]["agents"], "*");
+  EXPECT_EQ(page["tasks"][0]["need"], 1);
+  EXPECT_EQ(page["tasks"][2]["agents"], nlohmann::json({0}));
+  EXPECT_FALSE(page["tasks"][2].contains("need"));
+  EXPECT_EQ(page["plans"][0]["agents"][1]["work"], nlohmann::json::parse("[[0, 1, 1]]"));
+}
+
+TEST_F(ViewOfChoices, PicturesHaveDashedOutlinesAndASecondRowInTheLegend) {
+  const auto svg = [&](const std::string& instance) {
+    const ProcessResult done =
+        run_grove({"view", instance, "--svg", directory_ / "s.svg", "--width", "720"});
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    return read("s.svg");
+  };
+  EXPECT_THAT(svg(data("shop.cts.json")), Not(HasSubstr("stroke-dasharray")));
+  const std::string choices = svg(directory_ / "i.json");
+  EXPECT_THAT(choices, HasSubstr("stroke-dasharray"));
+  EXPECT_THAT(choices, HasSubstr("height=\"532px\""));  // a map of 3 x 2 cells and two rows
+}
+
+TEST_F(ViewOfChoices, IsRefusedAsADrive) {
+  EXPECT_THAT(complaint(run_grove({"view", directory_ / "i.json", directory_ / "plan.json",
+                                   "--drive", directory_ / "drive.jsonl"})),
+              HasSubstr("i.json: has a choice of tasks or destinations, which --drive does not "
+                        "support yet"));
+}
+
 TEST_F(ViewCommand, EscapesIds) {
   directory_.write("m.map", "type octile\nheight 1\nwidth 3\nmap\n...\n");
   directory_.write(

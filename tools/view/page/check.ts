@@ -5,7 +5,7 @@
 
 import { Occupancy, type ReportCollision } from "./occupancy";
 import { finish } from "./facts";
-import { hasChoice, hasDestination, isTold } from "./model";
+import { hasChoice, hasDestination, hasStatedVisits } from "./model";
 import type { Agent, AgentPlan, Angle, Model, Plan, WorkTime } from "./model";
 import type { Track, TurnTrack } from "./track";
 
@@ -336,7 +336,7 @@ class AgentCheck {
       this.report("work", piece.begin, `${this.does(piece)}, which is not one of its tasks`, -1);
       return;
     }
-    if (!isTold(task)) {
+    if (!hasStatedVisits(task)) {
       this.report("work", piece.begin,
         `has a stated visit of ${task.name}, which it visits by being on its place`, -1);
       return;
@@ -395,7 +395,7 @@ class AgentCheck {
       const task = this.model.tasks[index];
       if (this.timeOfVisit(index, 0) === Infinity)
         this.report("visit", this.plan.track.end,
-          `never ${isTold(task) ? "does" : "visits"} ${task.name} on ${this.name(task.place)}`,
+          `never ${hasStatedVisits(task) ? "does" : "visits"} ${task.name} on ${this.name(task.place)}`,
           task.place);
       yield;
     }
@@ -405,7 +405,7 @@ class AgentCheck {
   private timeOfVisit(index: number, begin: number): number {
     const task = this.model.tasks[index];
     const { track, work } = this.plan;
-    if (!isTold(task)) return track.firstTimeOn(task.place, begin);
+    if (!hasStatedVisits(task)) return track.firstTimeOn(task.place, begin);
     const piece = work.find((w) => w.task === index);
     return piece && piece.end >= begin ? piece.end : Infinity;
   }
@@ -434,7 +434,7 @@ class AgentCheck {
   // one of its visits, the robot may rest on any of its tasks or, if it must visit none, anywhere.
   private checkLastOfOrder(order: number[]): void {
     if (hasDestination(this.agent) || order.length === 0) return;
-    if (order.some((task) => isTold(this.model.tasks[task]))) return;
+    if (order.some((task) => hasStatedVisits(this.model.tasks[task]))) return;
     const end = this.plan.track.end;
     const last = this.model.tasks[order[order.length - 1]];
     if (this.place(end) !== last.place)

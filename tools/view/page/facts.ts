@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Facts computed from the paths of a plan: activities of robots and visits of tasks, with their times.
 
-import { hasChoice, isTold } from "./model";
+import { hasChoice, hasStatedVisits } from "./model";
 import type { Agent, AgentPlan, Model, Plan, Task } from "./model";
 
 export enum Doing {
@@ -104,7 +104,7 @@ function movingTimes(plan: AgentPlan): [number, number][] {
 // which it states no visits, the first time on its place; Infinity: never.
 export function visitTime(model: Model, plan: AgentPlan, index: number): number {
   const task = model.tasks[index];
-  if (!isTold(task)) return plan.track.firstTimeOn(task.place, 0);
+  if (!hasStatedVisits(task)) return plan.track.firstTimeOn(task.place, 0);
   const work = plan.work.find((w) => w.task === index);
   return work ? work.end : Infinity;
 }

@@ -99,7 +99,7 @@ export function hasChoice({ agents, need }: Task): boolean {
 
 // Returns whether a plan states the visits of the task, in `work`. Otherwise a robot visits the task by being on
 // its place.
-export function isTold(task: Task): boolean {
+export function hasStatedVisits(task: Task): boolean {
   return task.duration > 0 || hasChoice(task);
 }
 
