@@ -124,8 +124,7 @@ Json agent_json(const Instance& instance, AgentIndex index) {
 Json tasks_json(const Instance& instance) {
   Json json = Json::array();
   for (const Task& task : instance.tasks()) {
-    const bool is_for_any =
-        !task.needs_all() && std::ssize(task.agents) == instance.agent_count();
+    const bool is_for_any = !task.needs_all() && std::ssize(task.agents) == instance.agent_count();
     json.push_back({{"id", task.id},
                     {"place", task.cell},
                     {"agents", is_for_any ? Json("*") : Json(task.agents)}});

@@ -73,6 +73,7 @@ test("only stated visits of different robots count for a need", () => {
   }), ["work 6", "need 9"]);
   assert.deepEqual(faults((plan) => (plan[0].work = [], plan[0].tasks = [])), ["need 9"]);
   assert.deepEqual(faults((_, __, tasks) => (tasks[1].agents = [0, 1], tasks[1].need = 1)), ["work 1"]);
+  assert.deepEqual(faults((_, __, tasks) => (tasks[0].agents = [1, 2])), ["work 1", "need 9"], "a visit by a");
   assert.deepEqual(faults((plan) => (plan[2].work = [], plan[2].tasks = [2], plan[0].path = "")),
     ["path 0", "need 9"], "a robot has no path");
 });
@@ -115,6 +116,12 @@ test("a robot ends on one of its possible destinations", () => {
   }), ["end 5"]);
 });
 
+test("a robot with possible destinations need not rest on its last task", () => {
+  const m = model(kGrid, [{ id: "a", start: 0, goals: [3] }], [{ id: "t", place: 1, agents: [0] }],
+    [{ path: "@0;3E", tasks: [0] }]);
+  assert.deepEqual(check(m, m.plans[0]), []);
+});
+
 test("a robot without a destination rests on a task that it has visited", () => {
   // c may rest on "two", which it visits by choice, but then meets b.
   assert.deepEqual(found(() => {}), ["vertex 6"]);
@@ -146,6 +153,9 @@ test("the order has the tasks that a robot must visit and those with a stated vi
   assert.deepEqual(found((plan) => {
     plan[2] = { ...plan[2], path: "@11;W..E", cost: 4, work: [[1, 3, 3]], tasks: [1, 2] };
   }), []);
+  assert.deepEqual(found((plan) => {
+    plan[2] = { ...plan[2], path: "@11;WEW", cost: 3, work: [[1, 3, 3]], tasks: [1, 2] };
+  }), ["order 3", "vertex 6"], "not the first time on the place, but the stated visit counts");
 });
 
 test("the finish is not before the end of a stated visit", () => {

@@ -45,7 +45,7 @@ class Choices(PageTest):
         self.assertEqual(self.texts(".row"), ["1: any0 of 1 (any of 3)", "2: two0 of 2 (any of 3)", "3: own0 of 1"])
         for time, open_tasks in ((0, 3), (1, 2), (3, 2), (4, 1), (6, 0)):
             self.go(time)
-            self.assertIn(f"{open_tasks} of 3 open at this time", self.text(".filters"))
+            self.assertIn(f"{open_tasks} of 3 open now", self.text(".filters"))
         self.press("only open", ".filter button")
         self.assertEqual(self.texts(".row"), [])
         self.assertIn("no task is open", self.text(".rows"))

@@ -7,6 +7,7 @@ import type { Colors } from "./colors";
 import { outlined } from "./text";
 
 const kLeastCounted = 12; // pixels per step, from which on the number of tasks is shown
+const kLeastDashed = 12; // pixels per step, from which on a choice of robots is shown
 const kLeastListed = 30; // pixels per step, from which on each task is listed
 const kMostListed = 3;
 
@@ -36,7 +37,8 @@ export function paintTasks(
   c.fillStyle = done ? colors.taskDone : begun ? colors.taskBegun : colors.taskOpen;
   c.strokeStyle = isChosen ? colors.chosen : done ? colors.goal : colors.task;
   c.lineWidth = isChosen ? 3 : 1.25;
-  c.setLineDash(tasks.some(({ isChoice }) => isChoice) ? dashesOf(step) : []);
+  const isDashed = step >= kLeastDashed && tasks.some(({ isChoice }) => isChoice);
+  c.setLineDash(isDashed ? dashesOf(step) : []);
   const apart = Math.max(1.5, shapes.stackOffset * step);
   for (let k = Math.min(shapes.maxStacked, tasks.length) - 1; k >= 0; --k)
     paintDiamond(c, x + k * apart, y - k * apart, r);

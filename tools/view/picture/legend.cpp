@@ -62,8 +62,7 @@ void draw_choices(cairo_t* cairo, const Instance& instance) {
   cairo_save(cairo);
   cairo_translate(cairo, 0, kLegendRow);
   set_dashes(cairo, 2 * kSize);
-  if (has_choice_of_agents(instance))
-    add_task(cairo, "needs only some robots", kTaskOpen, kTask);
+  if (has_choice_of_agents(instance)) add_task(cairo, "needs only some robots", kTaskOpen, kTask);
   if (has_choice_of_goals(instance)) add_goal(cairo, "possible destination");
   cairo_restore(cairo);
 }

@@ -30,7 +30,7 @@ export class OpenTasks {
     const open = counts.join(" / ");
     if (open === this.open) return false;
     this.open = open;
-    setText(this.count, `${open} of ${this.app.model.tasks.length.toLocaleString("en")} open at this time`);
+    setText(this.count, `${open} of ${this.app.model.tasks.length.toLocaleString("en")} open now`);
     return this.onlyOpen;
   }
 
