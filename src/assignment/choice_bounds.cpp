@@ -126,7 +126,8 @@ class Bound {
   Cost total() {
     Cost sum = base();
     for (TaskIndex task = 0; task < instance_.task_count(); ++task)
-      if (!instance_.task(task).needs_all() && !limits_.stop_requested()) sum += detours(task);
+      if (!instance_.task(task).needs_all() && !limits_.stop_requested())
+        sum += sum_of_detours(task);
     return sum;
   }
 
@@ -173,7 +174,8 @@ class Bound {
     return cost;
   }
 
-  Cost detours(TaskIndex task) {
+  // The sum of the least detours of as many agents as the task needs.
+  Cost sum_of_detours(TaskIndex task) {
     std::vector<Time> detours;
     for (const AgentIndex agent : instance_.task(task).agents)
       if (can_visit(instance_, distances_, agent, task)) detours.push_back(detour(agent, task));

@@ -2,6 +2,7 @@
 // Heuristic for assignments of low cost, without a bound.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "assignment/assignment.h"
@@ -12,12 +13,11 @@
 namespace grove::detail {
 
 // Returns a complete assignment by regret insertion (Potvin and Rousseau 1993) into the agents'
-// routes, without conflicts between agents, followed by local search: neither moving a visit to
-// another agent nor another choice of goals makes the routes cheaper. Returns nullopt if it finds
-// none, which proves nothing, or if a limit was reached. Both arguments must outlive the call;
-// `distances` must be complete.
+// routes, without conflicts between agents, followed by large neighbourhood search
+// (assignment_lns.h) and another choice of goals. Returns nullopt if it finds none, which proves
+// nothing, or if a limit was reached. `distances` must be complete.
 std::optional<Assignment> assignment_by_insertion(const Instance& instance,
                                                   const DistanceFields& distances,
-                                                  const Limits& limits);
+                                                  std::uint64_t seed, const Limits& limits);
 
 }  // namespace grove::detail

@@ -46,7 +46,7 @@ Solution assign_and_solve(const Instance& instance, const SolveOptions& options,
   if (const auto reason = infeasible_choices(instance, distances))
     return infeasible(options, *reason, observer);
   const Cost bound = lower_bound_of_choices(instance, distances, limits);
-  const auto assignment = assignment_by_insertion(instance, distances, limits);
+  const auto assignment = assignment_by_insertion(instance, distances, options.seed, limits);
   if (!assignment) return without_assignment(options, limits, bound);
 
   merged.note("Insertion assigns the tasks and goals; the lower bound is for all assignments.");

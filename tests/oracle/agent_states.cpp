@@ -17,12 +17,15 @@ std::uint64_t bit(std::size_t task) {
 }  // namespace
 
 AgentStates::AgentStates(const Instance& instance, AgentIndex agent)
-    : instance_(instance), agent_(instance.agent(agent)), steps_(steps_on(instance.map())) {
+    : instance_(instance),
+      agent_(instance.agent(agent)),
+      tasks_(agent_.tasks),
+      steps_(steps_on(instance.map())) {
+  tasks_.insert(tasks_.end(), agent_.options.begin(), agent_.options.end());
   AgentState start{.pose = instance.pose_of(agent_.start)};
   if (instance.world().is_working(agent_.start)) {
     const Work& work = instance.world().work(agent_.start);
-    start.work =
-        static_cast<int>(std::ranges::find(agent_.tasks, work.task) - agent_.tasks.begin());
+    start.work = static_cast<int>(std::ranges::find(tasks_, work.task) - tasks_.begin());
     start.done = work.done;
   }
   arrive(start);
@@ -43,21 +46,29 @@ AgentStates::State AgentStates::number(const AgentState& standing) {
 
 // Marks the tasks on the agent's place that take no time as visited.
 void AgentStates::arrive(AgentState& standing) const {
-  for (std::size_t k = 0; k < agent_.tasks.size(); ++k) {
-    const Task& task = instance_.task(agent_.tasks[k]);
+  for (std::size_t k = 0; k < tasks_.size(); ++k) {
+    const Task& task = instance_.task(tasks_[k]);
     if (task.duration == 0 && task.cell == standing.pose.place) standing.visited |= bit(k);
   }
 }
 
+// An agent without a destination that must visit a task rests on the place of a task that it has
+// visited. One that must visit none rests anywhere, but within a turn only if no task lists it.
 bool AgentStates::may_rest(const AgentState& standing) const {
-  if (standing.work >= 0 || standing.visited != bit(agent_.tasks.size()) - 1) return false;
+  const std::uint64_t required = bit(agent_.tasks.size()) - 1;
+  if (standing.work >= 0 || (standing.visited & required) != required) return false;
   const Pose& pose = standing.pose;
-  if (agent_.goal)
-    return pose.place == *agent_.goal &&
+  if (agent_.goal || !agent_.goals.empty()) {
+    const bool is_there =
+        agent_.goal ? pose.place == *agent_.goal : std::ranges::count(agent_.goals, pose.place) > 0;
+    return is_there &&
            (!agent_.goal_heading || (pose.steps == 0 && pose.heading == *agent_.goal_heading));
-  return agent_.tasks.empty() || std::ranges::any_of(agent_.tasks, [&](TaskIndex task) {
-           return instance_.task(task).cell == pose.place;
-         });
+  }
+  if (agent_.tasks.empty()) return agent_.options.empty() || pose.steps == 0;
+  for (std::size_t k = 0; k < tasks_.size(); ++k)
+    if ((standing.visited & bit(k)) != 0 && instance_.task(tasks_[k]).cell == pose.place)
+      return true;
+  return false;
 }
 
 // An agent that has started a task continues it until it is completed. In the next step it can
@@ -69,7 +80,7 @@ std::vector<AgentState> AgentStates::next(const AgentState& standing) const {
     const auto k = static_cast<std::size_t>(work);
     then.work = work;
     then.done = done;
-    if (done == instance_.task(agent_.tasks[k]).duration) {
+    if (done == instance_.task(tasks_[k]).duration) {
       then.work = -1;
       then.done = 0;
       then.visited |= bit(k);
@@ -86,8 +97,8 @@ std::vector<AgentState> AgentStates::next(const AgentState& standing) const {
     next.back().pose = pose;
     arrive(next.back());
   }
-  for (std::size_t k = 0; k < agent_.tasks.size(); ++k) {
-    const Task& task = instance_.task(agent_.tasks[k]);
+  for (std::size_t k = 0; k < tasks_.size(); ++k) {
+    const Task& task = instance_.task(tasks_[k]);
     if (task.duration > 0 && task.cell == standing.pose.place && (standing.visited & bit(k)) == 0)
       work_on(static_cast<int>(k), 1);
   }

@@ -16,9 +16,9 @@ namespace grove::detail::oracle {
 // rest for good. Computed from the instance, without the search code of the library.
 struct AgentState {
   Pose pose;
-  int work = -1;              // task in execution, as index in Agent::tasks; -1: none
+  int work = -1;              // task in execution, as index in tasks(); -1: none
   Time done = 0;              // steps of `work` completed
-  std::uint64_t visited = 0;  // bit i: Agent::tasks[i] is visited
+  std::uint64_t visited = 0;  // bit i: tasks()[i] is visited
   bool resting = false;       // rests forever
 
   auto key() const {
@@ -42,6 +42,8 @@ class AgentStates {
   AgentStates(const Instance& instance, AgentIndex agent);
   struct TooMany {};
 
+  // The tasks that the agent must visit, and then those that it may visit.
+  const std::vector<TaskIndex>& tasks() const { return tasks_; }
   State count() const { return static_cast<State>(states_.size()); }
   // State at time 0, in which a task on the start that takes no time is already visited.
   State start() const { return 0; }
@@ -49,7 +51,7 @@ class AgentStates {
   const AgentState& standing(State s) const { return states_[s]; }
   Place cell(State s) const { return states_[s].pose.place; }
   bool resting(State s) const { return states_[s].resting; }
-  // Least cost until the agent can rest, ignoring other agents: 0 if and only if it rests or may
+  // Least cost until the agent can rest, ignoring other agents and tasks that it may visit: 0 if and only if it rests or may
   // rest; kNever if it can never rest.
   Time to_go(State s) const { return to_go_[s]; }
 
@@ -63,6 +65,7 @@ class AgentStates {
 
   const Instance& instance_;
   const Agent& agent_;
+  std::vector<TaskIndex> tasks_;
   std::vector<std::vector<Place>> steps_;  // adjacent places, by place
   std::map<AgentState, State> numbers_;
   std::vector<AgentState> states_;

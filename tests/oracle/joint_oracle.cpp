@@ -9,9 +9,11 @@
 // *Soundness.* The heuristic is the sum of the agents' exact individual costs-to-go. A step either
 // costs an agent 1 and lowers its cost-to-go by at most 1, or costs 0 and leaves its cost-to-go at
 // 0. The heuristic is therefore consistent, a state's cost is final when the state is taken from
-// the queue, and the first state taken in which all agents may rest is optimal. There are finitely
-// many states, so an empty queue proves that there is no plan. A state is dropped if some agent,
-// even ignoring the others, can no longer finish, because no plan passes through that state.
+// the queue, and the first state taken in which all agents may rest and all needs are met is
+// optimal. (An agent visits each task that it may visit, and that takes no time, as soon as it is
+// on the place of the task, because this costs nothing.) There are finitely many states, so an
+// empty queue proves that there is no plan. A state is dropped if some agent, even ignoring the
+// others, can no longer finish, because no plan passes through that state.
 //
 // The oracle shares only the model layer with Grove.
 #include "tests/oracle/joint_oracle.h"
@@ -82,6 +84,7 @@ class JointAStar {
     return static_cast<State>((key >> shift_[agent]) & mask_[agent]);
   }
   Time to_go(Key key) const;
+  bool needs_met(Key key) const;
   NodeIndex pop();
   void expand(NodeIndex node);
   void advance(std::size_t agent, Key key, Time cost);
@@ -135,6 +138,19 @@ Time JointAStar::to_go(Key key) const {
     sum += alone;
   }
   return sum;
+}
+
+// Is each task visited by as many agents as it needs?
+bool JointAStar::needs_met(Key key) const {
+  std::vector<int> visitors(instance_.tasks().size());
+  for (std::size_t a = 0; a < agents_.size(); ++a) {
+    const std::uint64_t visited = agents_[a].standing(state(key, a)).visited;
+    for (std::size_t k = 0; k < agents_[a].tasks().size(); ++k)
+      if ((visited >> k & 1) != 0) ++visitors[agents_[a].tasks()[k]];
+  }
+  for (TaskIndex task = 0; task < instance_.task_count(); ++task)
+    if (visitors[task] < instance_.task(task).need) return false;
+  return true;
 }
 
 void JointAStar::reach(Key key, Time cost) {
@@ -202,7 +218,8 @@ Answer JointAStar::run() {
     start |= static_cast<Key>(agents_[a].start()) << shift_[a];
   reach(start, 0);
   for (NodeIndex n = pop(); n != kNoNode; n = pop()) {
-    if (to_go(nodes_[n].key) == 0) return {Verdict::kSolved, plan(n), nodes_.size()};
+    if (to_go(nodes_[n].key) == 0 && needs_met(nodes_[n].key))
+      return {Verdict::kSolved, plan(n), nodes_.size()};
     expand(n);
     if (nodes_.size() > state_cap_) return {Verdict::kTooLarge, std::nullopt, nodes_.size()};
   }
@@ -221,7 +238,7 @@ Plan JointAStar::plan(NodeIndex last) const {
 AgentPlan JointAStar::agent_plan(std::size_t agent, const std::vector<Key>& keys) const {
   const AgentStates& states = agents_[agent];
   const auto index = static_cast<AgentIndex>(agent);
-  const auto& tasks = instance_.agent(index).tasks;
+  const auto& tasks = states.tasks();
   AgentPlan result;
   std::uint64_t before = 0;
   for (const Key key : keys) {
@@ -232,8 +249,8 @@ AgentPlan JointAStar::agent_plan(std::size_t agent, const std::vector<Key>& keys
     for (std::uint64_t bits = here.visited & ~before; bits != 0; bits &= bits - 1) {
       const TaskIndex task = tasks[std::countr_zero(bits)];
       result.sequence.push_back(task);
-      if (const Time duration = instance_.task(task).duration; duration > 0)
-        result.work.push_back({task, now - duration, now});
+      if (const Task& t = instance_.task(task); t.is_told())
+        result.work.push_back({task, now - t.duration, now});
     }
     before = here.visited;
   }
@@ -245,7 +262,7 @@ AgentPlan JointAStar::agent_plan(std::size_t agent, const std::vector<Key>& keys
 // Moves the task on which the agent rests to the end of its sequence, because the agent visits it
 // last (when it returns to rest there).
 void JointAStar::finish_on_last(AgentIndex index, AgentPlan& agent) const {
-  if (!instance_.rests_on_last_stop(index)) return;
+  if (!instance_.rests_on_last_stop(index) || !agent.work.empty()) return;
   const auto last = std::ranges::find(agent.sequence, instance_.world().place(agent.path.back()),
                                       [&](TaskIndex t) { return instance_.task(t).cell; });
   if (last != agent.sequence.end()) std::rotate(last, last + 1, agent.sequence.end());

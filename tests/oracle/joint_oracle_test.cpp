@@ -104,8 +104,7 @@ TEST(JointOracle, ReportsTooManyStates) {
 
 TEST(JointOracle, PlansAreValid) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    const fuzz::TinyInstance tiny =
-        fuzz::any_instance(seed);
+    const fuzz::TinyInstance tiny = fuzz::any_instance(seed);
     const Instance instance = tiny.build();
     const Answer answer = solve_jointly(instance);
     if (!answer.plan) continue;

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The routes of all agents: the order in which each visits its stops, and its destination.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "assignment/route_costs.h"
+#include "model/instance.h"
+#include "model/omega.h"
+
+namespace grove::detail {
+
+// Cheapest position for a task in a route.
+struct Insertion {
+  Time cost = kNever;  // increase of the route's cost; kNever: no route visits the task there
+  std::size_t position = 0;
+};
+
+// The cost of a route is the sum of its legs, without conflicts between agents. At first all routes
+// are empty. Copies are independent. One thread at a time.
+class Routes {
+ public:
+  // `costs` must outlive this object.
+  explicit Routes(const RouteCosts& costs);
+
+  const std::vector<TaskIndex>& stops(AgentIndex agent) const { return stops_[agent]; }
+  std::optional<Place> goal(AgentIndex agent) const { return goals_[agent]; }
+  bool visits(AgentIndex agent, TaskIndex task) const;
+  // The sum of the costs of all routes.
+  Cost cost() const;
+
+  Insertion cheapest(AgentIndex agent, TaskIndex task) const;
+  void insert(AgentIndex agent, TaskIndex task, std::size_t position);
+  void set_stops(AgentIndex agent, std::vector<TaskIndex> stops) {
+    stops_[agent] = std::move(stops);
+  }
+  // Returns by how much the cost of the route falls. Precondition: the agent visits the task.
+  Time remove(AgentIndex agent, TaskIndex task);
+
+  // Chooses the goals of all agents with a choice, so that the legs to the goals cost least.
+  // Returns false if there are too few goals.
+  bool choose_goals();
+
+ private:
+  std::size_t first_position(AgentIndex agent, TaskIndex task) const;
+  Time leg(AgentIndex agent, std::size_t at) const;
+  Time leg_from(AgentIndex agent, TaskIndex task, std::size_t at) const;
+  Time leg_to_goal(AgentIndex agent, Place goal) const;
+  Time to_rest(AgentIndex agent, TaskIndex from) const;
+  Time start_to_rest(AgentIndex agent) const;
+
+  const RouteCosts* costs_;
+  const Instance* instance_;
+  std::vector<std::vector<TaskIndex>> stops_;  // by AgentIndex
+  std::vector<std::optional<Place>> goals_;
+};
+
+}  // namespace grove::detail

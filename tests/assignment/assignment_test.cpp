@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// Compares assignments and bounds with the oracle, on tiny instances of all kinds with choices.
+#include "assignment/assignment.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "assignment/choice_bounds.h"
+#include "assignment/insertion.h"
+#include "model/check.h"
+#include "tests/fuzz/random_instance.h"
+#include "tests/oracle/joint_oracle.h"
+#include "tests/support/choices.h"
+#include "tests/support/fuzz_factor.h"
+
+namespace grove::detail {
+namespace assignment_test {
+
+constexpr std::size_t kStates = 200'000;
+
+// Calls test(instance, truth) for random instances with choices that the oracle can solve.
+template <class Test>
+void for_each_instance(int rounds, Test test) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(rounds));
+       ++seed) {
+    SCOPED_TRACE(seed);
+    const Instance instance = with_random_choices(fuzz::any_instance(seed).build(), seed);
+    if (!instance.has_choices()) continue;
+    const oracle::Answer truth = oracle::solve_jointly(instance, kStates);
+    if (truth.verdict != oracle::Verdict::kTooLarge) test(instance, truth);
+  }
+}
+
+std::string verdict(const Instance& instance, const Plan& plan) {
+  Solution solution;
+  solution.plan = plan;
+  solution.status = Status::kFeasible;
+  solution.omega = Omega::infinite();
+  solution.lower_bound = 0;
+  if (plan.cost == 0) solution.status = Status::kOptimal;
+  std::string text;
+  for (const Violation& violation : check(instance, solution, 3))
+    text += violation.json_pointer + ": " + violation.message + "\n";
+  return text;
+}
+
+TEST(Assignment, OraclePlansAreValid) {
+  int plans = 0;
+  for_each_instance(300, [&](const Instance& instance, const oracle::Answer& truth) {
+    if (!truth.plan) return;
+    EXPECT_EQ(verdict(instance, *truth.plan), "");
+    ++plans;
+  });
+  EXPECT_GT(plans, 100);
+}
+
+// Plans of the instance with an assignment are plans of the instance, and are not cheaper.
+TEST(Assignment, PlansWithAnAssignmentAreValid) {
+  int plans = 0;
+  int optimal = 0;
+  for_each_instance(300, [&](const Instance& instance, const oracle::Answer& truth) {
+    const DistanceFields distances(instance);
+    const auto assignment = assignment_by_insertion(instance, distances, 1, Limits());
+    if (!assignment) return;
+    ASSERT_TRUE(is_complete(instance, *assignment));
+    const Instance fixed = with_assignment(instance, *assignment);
+    EXPECT_FALSE(fixed.has_choices());
+    const oracle::Answer answer = oracle::solve_jointly(fixed, kStates);
+    if (!answer.plan) return;
+    const Plan plan = with_told_visits(instance, *answer.plan);
+    EXPECT_EQ(verdict(instance, plan), "");
+    ASSERT_TRUE(truth.plan);
+    EXPECT_GE(plan.cost, truth.plan->cost);
+    optimal += plan.cost == truth.plan->cost ? 1 : 0;
+    ++plans;
+  });
+  EXPECT_GT(plans, 100);
+  EXPECT_GT(2 * optimal, plans);
+}
+
+TEST(Assignment, BoundsAreTrue) {
+  int tight = 0;
+  int instances = 0;
+  for_each_instance(600, [&](const Instance& instance, const oracle::Answer& truth) {
+    const DistanceFields distances(instance);
+    if (!truth.plan) return;
+    EXPECT_EQ(infeasible_choices(instance, distances), std::nullopt);
+    const Cost bound = lower_bound_of_choices(instance, distances, Limits());
+    EXPECT_LE(bound, truth.plan->cost);
+    tight += bound == truth.plan->cost ? 1 : 0;
+    ++instances;
+  });
+  EXPECT_GT(4 * tight, instances);
+}
+
+TEST(Assignment, TooFewGoals) {
+  InstanceBuilder builder(Grid(4, 1, std::vector<bool>(4, true)));
+  const auto add = [&](const std::string& id, Place start, std::vector<Place> goals) {
+    builder.add_agent({.id = id, .start = {.place = start}, .goals = std::move(goals)});
+  };
+  add("a", 0, {1, 2});
+  add("b", 1, {1, 2});
+  add("c", 2, {0, 3});
+  add("d", 3, {2, 1});
+  const Instance instance = std::move(builder).build();
+  EXPECT_EQ(infeasible_choices(instance, DistanceFields(instance)),
+            "agents 'a', 'b', 'd' have only 2 goals");
+}
+
+TEST(Assignment, TaskThatTooFewAgentsReach) {
+  InstanceBuilder builder(Grid(4, 1, {true, true, false, true}));
+  builder.add_agent("a", Place{0}, Place{1});
+  builder.add_agent("b", Place{3}, std::nullopt);
+  builder.add_agent("c", Place{1}, std::nullopt);
+  builder.add_task("t", Place{0}, std::vector<std::string>{"a", "b"}, 0, 1);
+  builder.add_task("u", Place{3}, std::vector<std::string>{"a", "b", "c"}, 0, 2);
+  const Instance instance = std::move(builder).build();
+  EXPECT_EQ(infeasible_choices(instance, DistanceFields(instance)),
+            "task 'u' needs 2 of its agents, but only 1 can reach it and then a place to rest");
+}
+
+}  // namespace assignment_test
+}  // namespace grove::detail

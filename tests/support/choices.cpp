@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "tests/support/choices.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/random.h"
+
+namespace grove::detail {
+namespace {
+
+// Its own goal, goals of other agents, and places of tasks.
+std::vector<Place> random_goals(const Instance& instance, const Agent& agent, Random& random) {
+  std::vector<Place> goals{*agent.goal};
+  for (const Agent& other : instance.agents())
+    if (other.goal && random.below(2) == 0) goals.push_back(*other.goal);
+  for (const Task& task : instance.tasks())
+    if (random.below(4) == 0) goals.push_back(task.cell);
+  std::ranges::sort(goals);
+  goals.erase(std::unique(goals.begin(), goals.end()), goals.end());
+  return goals;
+}
+
+std::vector<std::string> random_agents(const Instance& instance, const Task& task, bool more,
+                                       Random& random) {
+  std::vector<std::string> ids;
+  for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)
+    if (std::ranges::count(task.agents, agent) > 0 || (more && random.below(2) == 0))
+      ids.push_back(instance.agent(agent).id);
+  return ids;
+}
+
+}  // namespace
+
+Instance with_random_choices(const Instance& instance, std::uint64_t seed) {
+  Random random(seed);
+  const bool has_goals = random.below(2) == 0;
+  const bool has_needs = !has_goals || random.below(2) == 0;
+  InstanceBuilder builder = InstanceBuilder::like(instance);
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+    AgentSpec spec = instance.spec(i);
+    if (has_goals && spec.goal && random.below(3) > 0) {
+      spec.goals = random_goals(instance, instance.agent(i), random);
+      spec.goal.reset();
+    }
+    builder.add_agent(std::move(spec));
+  }
+  for (const Task& task : instance.tasks()) {
+    const bool more = has_needs && random.below(3) > 0;
+    const std::vector<std::string> ids = random_agents(instance, task, more, random);
+    const int count = static_cast<int>(ids.size());
+    builder.add_task(task.id, task.cell, ids, task.duration,
+                     more ? 1 + random.below(count) : count);
+  }
+  return std::move(builder).build();
+}
+
+}  // namespace grove::detail
