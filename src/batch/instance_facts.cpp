@@ -56,6 +56,7 @@ NamedNumbers numbers_in(std::string_view name) {
 }
 
 std::string problem_of(const Instance& instance) {
+  if (instance.has_choices()) return "choices";
   if (instance.task_count() == 0) return "mapf";
   const auto with_goal = std::ranges::count_if(
       instance.agents(), [](const Agent& agent) { return agent.goal.has_value(); });

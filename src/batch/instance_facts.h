@@ -15,7 +15,7 @@ struct InstanceMetadata {
   std::optional<std::int64_t> scenario = {};  // from the id of the instance
   std::int64_t agents = 0;
   std::int64_t tasks = 0;
-  std::string problem;  // "cts", "mg", "mapf" or "mixed"
+  std::string problem;  // "cts", "mg", "mapf", "mixed" or "choices"
 
   friend bool operator==(const InstanceMetadata&, const InstanceMetadata&) = default;
 };

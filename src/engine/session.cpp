@@ -24,6 +24,7 @@
 #include "execution/advance.h"
 #include "model/assert.h"
 #include "model/check.h"
+#include "model/choices.h"
 #include "planning/problem.h"
 #include "primal/repair.h"
 #include "search/feasibility.h"
@@ -205,7 +206,9 @@ class Session::Impl {
         plan_(std::move(plan)),
         old_(plan_),
         affected_(static_cast<std::size_t>(instance_.agent_count())),
-        ends_with_plan_(affected_) {}
+        ends_with_plan_(affected_) {
+    require_no_choices(instance_, "re-planning does not support yet");
+  }
 
   const Instance& instance() const { return instance_; }
   const std::optional<Plan>& plan() const { return plan_; }

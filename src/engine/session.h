@@ -17,8 +17,10 @@ namespace grove::detail {
 // of the plan that is still valid. One thread at a time.
 class Session {
  public:
+  // Throws InstanceError if the instance has choices: what remains of them after some steps is not
+  // an instance.
   explicit Session(Instance instance);
-  // `plan` must be a valid plan of `instance`.
+  // `plan` must be a valid plan of `instance`. Throws InstanceError like the constructor above.
   Session(Instance instance, Plan plan);
   ~Session();
   Session(Session&&) noexcept;

@@ -22,7 +22,8 @@ struct Remainder {
 // anywhere, or only on a place where it may rest in the original instance.
 enum class Rests : std::uint8_t { kAnywhere, kWhereItMust };
 
-// Returns the remainder of `instance` and `plan` after `time` >= 0 time steps.
+// Returns the remainder of `instance` and `plan` after `time` >= 0 time steps. Precondition:
+// `instance` has no choices.
 // - Each agent starts in its pose at that time in `plan`: on a vertex or cell, on a road or within
 //   a turn, possibly at work.
 // - For each agent, the tasks that it has visited are removed from its tasks. Tasks that no agent

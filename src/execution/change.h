@@ -35,12 +35,12 @@ struct Changed {
   std::vector<bool> cut;  // by AgentIndex: the path was cut before a closed place or road
 };
 
-// Applies a change. Precondition: `plan` is valid, or is Changed::plan of an earlier change. If
-// nothing is closed, all states keep their numbers, except for states at work. Throws InstanceError
-// with field "new_tasks/<i>/...", "dropped_tasks/<i>", "blocked/<i>" or "closed_roads/<i>" if a
-// part of the change is impossible. A place or road cannot be closed if an agent starts there, or
-// if it is the place of a destination or of a task that is not dropped. A cell that is blocked on
-// the map cannot be closed either.
+// Applies a change. Preconditions: `instance` has no choices; `plan` is valid, or is Changed::plan
+// of an earlier change. If nothing is closed, all states keep their numbers, except for states at
+// work. Throws InstanceError with field "new_tasks/<i>/...", "dropped_tasks/<i>", "blocked/<i>" or
+// "closed_roads/<i>" if a part of the change is impossible. A place or road cannot be closed if an
+// agent starts there, or if it is the place of a destination or of a task that is not dropped. A
+// cell that is blocked on the map cannot be closed either.
 Changed apply(const Instance& instance, const Plan& plan, const InstanceChange& change);
 
 }  // namespace grove::detail

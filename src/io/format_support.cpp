@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <vector>
+
+#include "model/choices.h"
 
 namespace grove::detail {
 namespace {
@@ -19,13 +22,20 @@ std::string task_field(TaskIndex task) {
   return fmt::format("tasks/{}", task);
 }
 
+// The tasks that the agent must or may visit, in ascending order.
+std::vector<TaskIndex> all_tasks(const Agent& agent) {
+  std::vector<TaskIndex> all;
+  std::ranges::merge(agent.tasks, agent.options, std::back_inserter(all));
+  return all;
+}
+
 // Returns the tasks in the order of their first appearance in the agents' lists, agent by agent.
 // Precondition: agents must visit all their tasks.
 std::vector<TaskIndex> order_of_appearance(const Instance& instance) {
   std::vector<TaskIndex> order;
   std::vector<bool> seen(instance.task_count());
   for (const Agent& agent : instance.agents()) {
-    for (TaskIndex task : agent.tasks) {
+    for (TaskIndex task : all_tasks(agent)) {
       if (seen[task]) continue;
       seen[task] = true;
       order.push_back(task);
@@ -90,6 +100,14 @@ void require_free_grid(const Instance& instance, std::string_view format) {
                                          "expected tasks without a duration",
                                          instance.task(i).id, format),
                              Loss::kNothing);
+  require_no_choices_in(instance, format);
+}
+
+void require_no_choices_in(const Instance& instance, std::string_view format) {
+  if (const auto choice = find_choice(instance))
+    throw NotRepresentable(
+        choice->field, refusal_text(*choice, fmt::format("cannot be represented in {}", format)),
+        Loss::kNothing);
 }
 
 void require_fixed_tasks(const Instance& instance, std::string_view format) {

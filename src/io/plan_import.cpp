@@ -202,15 +202,22 @@ ClaimedPaths read_visualizer_text(const std::filesystem::path& path, const Insta
   return text;
 }
 
-// The agent's tasks in the order of their first visits. For an agent without a destination, a task
-// on the last place of the path comes last.
+// The agent's tasks, also those that it visits by choice, in the order of their first visits. For
+// an agent without a destination and without told visits, a task on the last place of the path
+// comes last.
 std::vector<TaskIndex> order_of_tasks(const Instance& instance, const Agent& agent,
-                                      const Path& path) {
+                                      const Path& path, const std::vector<WorkTime>& visits) {
   std::vector<TaskIndex> tasks = agent.tasks;
+  for (const WorkTime& visit : visits)
+    if (std::ranges::count(tasks, visit.task) == 0) tasks.push_back(visit.task);
+  const bool has_last = !agent.has_destination() && visits.empty() && !path.empty();
   std::ranges::stable_sort(tasks, {}, [&](TaskIndex task) {
     const Cell cell = instance.task(task).cell;
-    const bool is_last = !agent.has_destination() && !path.empty() && cell == path.back();
-    return std::pair(is_last, std::ranges::find(path, cell) - path.begin());
+    const bool is_last = has_last && cell == path.back();
+    const auto visit = std::ranges::find(visits, task, &WorkTime::task);
+    const std::ptrdiff_t time =
+        visit != visits.end() ? visit->end : std::ranges::find(path, cell) - path.begin();
+    return std::pair(is_last, time);
   });
   return tasks;
 }
@@ -228,6 +235,16 @@ Solution solution_of(const Instance& instance, ClaimedPaths text) {
 
 Time finish_of(const Path& path) {
   return static_cast<Time>(std::max<std::size_t>(until_rest(path).size(), 1) - 1);
+}
+
+void require_no_told_choice(const std::filesystem::path& path, const Instance& instance) {
+  const auto has_choice = [](const Task& task) { return !task.needs_all(); };
+  const auto found = std::ranges::find_if(instance.tasks(), has_choice);
+  if (found != instance.tasks().end())
+    throw InputError(path.string(), "line 1",
+                     fmt::format("expected a plan file (JSON), since task '{}' of the instance has "
+                                 "a choice of agents, and other formats do not tell who visits it",
+                                 found->id));
 }
 
 void recompute_costs(Plan& plan) {
@@ -248,24 +265,30 @@ void forget_claims(Solution& solution) {
 
 }  // namespace
 
-Plan plan_of_paths(const Instance& instance, std::vector<Path> paths) {
+Plan plan_of_paths(const Instance& instance, std::vector<Path> paths, Visits visits) {
   GROVE_CHECK(std::ssize(paths) == instance.agent_count(), "there is one path for each agent");
+  visits.resize(paths.size());
   Plan plan;
   for (const Agent& agent : instance.agents()) {
     Path& path = paths[plan.agents.size()];
-    const Time finish = finish_of(path);
+    std::vector<WorkTime>& work = visits[plan.agents.size()];
+    std::ranges::stable_sort(work, {}, &WorkTime::begin);
+    Time finish = finish_of(path);
+    for (const WorkTime& visit : work) finish = std::max(finish, visit.end);
     plan.cost += finish;
-    auto tasks = order_of_tasks(instance, agent, path);
-    plan.agents.push_back({finish, std::move(tasks), std::move(path)});
+    auto tasks = order_of_tasks(instance, agent, path, work);
+    plan.agents.push_back({finish, std::move(tasks), std::move(path), std::move(work)});
   }
   return plan;
 }
 
 bool paths_are_places(const Instance& instance) {
-  const auto turns = [](const Agent& agent) { return agent.motion.turn_steps > 0; };
-  const auto takes_time = [](const Task& task) { return task.duration > 0; };
-  return std::ranges::none_of(instance.agents(), turns) &&
-         std::ranges::none_of(instance.tasks(), takes_time);
+  return std::ranges::none_of(instance.agents(),
+                              [](const Agent& agent) { return agent.motion.turn_steps > 0; });
+}
+
+bool plans_are_paths(const Instance& instance) {
+  return paths_are_places(instance) && std::ranges::none_of(instance.tasks(), &Task::is_told);
 }
 
 RecountedPlan read_and_recount(const std::filesystem::path& path, const Instance& instance) {
@@ -277,7 +300,7 @@ RecountedPlan read_and_recount(const std::filesystem::path& path, const Instance
   if (claimed.solution.plan && claims("cost")) result.claimed_cost = claimed.solution.plan->cost;
   if (claims("lower bound")) result.claimed_lower_bound = claimed.solution.lower_bound;
   result.solution = std::move(claimed.solution);
-  if (result.solution.plan && paths_are_places(instance)) recompute_costs(*result.solution.plan);
+  if (result.solution.plan && plans_are_paths(instance)) recompute_costs(*result.solution.plan);
   forget_claims(result.solution);
   return result;
 }
@@ -292,6 +315,7 @@ ClaimedPlan read_plan_of_any_tool(const std::filesystem::path& path, const Insta
   if (!instance.is_on_grid())
     throw InputError(path.string(), "line 1",
                      "expected a plan file (JSON), since the instance is on a roadmap");
+  require_no_told_choice(path, instance);
   const std::vector<std::string_view> lines = split_lines(content);
   ClaimedPaths text;
   if (std::ranges::any_of(lines, is_schedule)) {

@@ -21,13 +21,17 @@ struct ClaimedPlan {
   AgentOrder order = {};               // only for Grove's own plan files
 };
 
-// True if agents turn freely and tasks take no time, so that a sequence of places determines a
-// path.
+// True if agents turn freely, so that a sequence of places determines a path.
 bool paths_are_places(const Instance& instance);
+// True if, in addition, no task has told visits, so that the paths determine the plan.
+bool plans_are_paths(const Instance& instance);
+
+using Visits = std::vector<std::vector<WorkTime>>;  // by AgentIndex: the told visits
 
 // Returns the plan with these paths, by AgentIndex, and with costs and orders of tasks computed
-// from them. The plan need not be valid. Precondition: paths_are_places().
-Plan plan_of_paths(const Instance& instance, std::vector<Path> paths);
+// from them. The plan need not be valid. Preconditions: paths_are_places(); plans_are_paths() if
+// `visits` is empty.
+Plan plan_of_paths(const Instance& instance, std::vector<Path> paths, Visits visits = {});
 
 // Reads a plan. The format is detected from the content:
 // - Grove plan files (see read_solution()), which contain all claims;
@@ -42,7 +46,9 @@ Plan plan_of_paths(const Instance& instance, std::vector<Path> paths);
 //   is present. There is no plan if "schedule:" has no value.
 //
 // The agents of the result are those of `instance`, in its order. An agent that is missing in the
-// file has an empty path. Throws InputError for any other content, and if a path leaves the map.
+// file has an empty path. Throws InputError for any other content, if a path leaves the map, and
+// for the format of another tool if a task has a choice of agents, because only Grove's plan files
+// tell visits.
 ClaimedPlan read_plan_of_any_tool(const std::filesystem::path& path, const Instance& instance);
 
 // A plan of any tool, with the cost recomputed as the sum of the times from which the agents rest
@@ -55,7 +61,7 @@ struct RecountedPlan {
 };
 
 // Reads a plan as read_plan_of_any_tool() does, and recomputes the costs. If agents turn or tasks
-// take time, the costs remain as claimed in the file, and check() verifies them. Throws the
+// have told visits, the costs remain as claimed in the file, and check() verifies them. Throws the
 // exceptions of read_plan_of_any_tool().
 RecountedPlan read_and_recount(const std::filesystem::path& path, const Instance& instance);
 

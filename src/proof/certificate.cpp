@@ -27,6 +27,7 @@
 
 #include "conflicts/conflict.h"
 #include "model/assert.h"
+#include "model/choices.h"
 #include "model/instance.h"
 #include "model/omega.h"
 #include "planning/constraint.h"
@@ -247,6 +248,7 @@ class CertificateBuilder {
 Certificate write_certificate(const Instance& instance,
                               std::span<const std::filesystem::path> parts, Cost claimed,
                               const std::filesystem::path& file) {
+  require_no_choices(instance, "certificates do not support yet");
   return CertificateBuilder(instance, parts).write(claimed, file);
 }
 

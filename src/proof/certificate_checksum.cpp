@@ -34,6 +34,8 @@ void add(const Instance& instance, const Agent& agent, std::string& text) {
     fmt::format_to(std::back_inserter(text), "looks {} {} {} {}\n", letter(start.heading),
                    letter(start.to), start.steps,
                    agent.goal_heading ? letter(*agent.goal_heading) : '-');
+  if (!agent.goals.empty())
+    fmt::format_to(std::back_inserter(text), "goals {}\n", fmt::join(agent.goals, " "));
   if (!instance.world().is_working(agent.start)) return;
   const Work& work = instance.world().work(agent.start);
   fmt::format_to(std::back_inserter(text), "working {} {}\n", work.task, work.done);
@@ -42,6 +44,7 @@ void add(const Instance& instance, const Agent& agent, std::string& text) {
 void add(const Task& task, std::string& text) {
   fmt::format_to(std::back_inserter(text), "task {} {} {}\n", task.cell, task.duration,
                  fmt::join(task.agents, " "));
+  if (!task.needs_all()) fmt::format_to(std::back_inserter(text), "need {}\n", task.need);
 }
 
 }  // namespace

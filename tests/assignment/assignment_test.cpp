@@ -14,7 +14,7 @@
 #include "model/check.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/joint_oracle.h"
-#include "tests/support/choices.h"
+#include "tests/support/random_choices.h"
 #include "tests/support/fuzz_factor.h"
 
 namespace grove::detail {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/choices.h"
 #include "tests/support/instances.h"
 
 namespace grove::detail::batch {
@@ -26,6 +27,17 @@ TEST(InstanceMetadata, AreReadFromTheInstanceAndItsName) {
   EXPECT_EQ(facts("a_s3_x", {free}), (InstanceMetadata{"room-32", 3, 1, 1, "mg"}));
   EXPECT_EQ(facts("_s3_n1_m9/x", {{{0, 0}, Position{3, 0}}}),
             (InstanceMetadata{"room-32", std::nullopt, 1, 0, "mapf"}));
+}
+
+// All tasks and agents count, also tasks that some agents only may visit.
+TEST(InstanceMetadata, NameChoices) {
+  const auto facts = [](Instance instance) {
+    return metadata_of({.id = "x", .path = ""}, {std::move(instance), "x/m.map", {}});
+  };
+  EXPECT_EQ(facts(grove::detail::testing::instance_with_goals()),
+            (InstanceMetadata{"m", std::nullopt, 2, 0, "choices"}));
+  EXPECT_EQ(facts(grove::detail::testing::instance_with_need()),
+            (InstanceMetadata{"m", std::nullopt, 2, 1, "choices"}));
 }
 
 // In an MG-MAPF instance the former destination counts as one more task.

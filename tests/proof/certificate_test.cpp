@@ -14,6 +14,7 @@
 
 #include "io/input_error.h"
 #include "proof/proof_parts.h"
+#include "tests/support/choices.h"
 #include "tests/support/temporary_directory.h"
 
 namespace grove::detail {
@@ -227,6 +228,30 @@ TEST_F(Certificates, NameTheInstance) {
   InstanceBuilder other = InstanceBuilder::like(instance_);
   other.add_agent("a", Position{0, 0}, Position{2, 0});
   EXPECT_NE(certificate_checksum(std::move(other).build()), certificate_checksum(instance_));
+}
+
+TEST_F(Certificates, ChecksumsCoverChoices) {
+  const auto checksum = [](std::vector<Place> goals, std::optional<int> need) {
+    InstanceBuilder builder{Map(Grid(3, 2, std::vector<bool>(6, true)))};
+    builder.add_agent({.id = "a", .start = {.place = 0}, .goal = {}, .goals = std::move(goals)});
+    builder.add_agent("b", Place{2}, std::nullopt);
+    builder.add_agent("c", Place{5}, std::nullopt);
+    builder.add_task("t", Place{4}, std::vector<std::string>{"a", "b", "c"}, 0, need);
+    return certificate_checksum(std::move(builder).build());
+  };
+  const std::vector<std::uint64_t> sums{checksum({}, {}),     checksum({}, 1),
+                                        checksum({}, 2),      checksum({3}, {}),
+                                        checksum({3, 4}, {}), checksum({4, 3}, 1)};
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) EXPECT_NE(sums[i], sums[k]) << i << " " << k;
+  EXPECT_EQ(checksum({}, 3), checksum({}, {}));
+}
+
+TEST_F(Certificates, AreNotMadeForChoices) {
+  for (const Instance& instance : {testing::instance_with_goals(), testing::instance_with_need()}) {
+    EXPECT_THROW(write_certificate(instance, std::array{part_}, 4, file_), InstanceError);
+    EXPECT_FALSE(fs::exists(file_));
+  }
 }
 
 }  // namespace

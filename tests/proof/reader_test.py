@@ -305,8 +305,11 @@ class Reader(unittest.TestCase):
 
         cell, vertex = [0, 0], "v0"
         for where in ((), ("agents", 0), ("tasks", 0)):
-            for key in ("gaol", "Duration", "deadline", "goals", "need", "", "$id", "x" * 10**5):
+            for key in ("gaol", "Duration", "deadline", "", "$id", "x" * 10**5):
                 refused(on_map, put(*where, key, value=1), "unknown key")
+        for path, value in ((("agents", 0, "goals"), [cell]), (("tasks", 0, "need"), 1)):
+            refused(on_map, put(*path, value=value), f'"{path[-1]}": certificates of instances with choices are not supported')
+        refused(on_map, put("tasks", 0, "agents", value="*"), "tasks 0: expected agents, a list of ids")
         for path, value in (
                 (("roadmap",), "tiny.map"), (("agents",), []), (("agents", 0, "id"), ""), (("agents", 0, "id"), "a\0"),
                 (("agents", 0, "start"), [0.0, 0]), (("agents", 0, "start"), [0, 1e0]),

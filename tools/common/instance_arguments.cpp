@@ -11,6 +11,7 @@
 #include "io/input_error.h"
 #include "io/scenario_file.h"
 #include "io/text_file.h"
+#include "model/choices.h"
 #include "tools/common/file_formats.h"
 #include "tools/common/machine.h"
 #include "tools/common/options.h"
@@ -59,6 +60,12 @@ void InstanceArguments::add_rules_to(CLI::App& command) {
       "forbid that an agent enters a place in the step in which another one leaves it. "
       "Robots that hold a place until they have left it can execute such a plan "
       "unchanged, and it has no rings (see 'grove execute --help')");
+}
+
+void InstanceArguments::require_no_choices(const Instance& instance,
+                                           std::string_view reason) const {
+  if (const auto choice = find_choice(instance))
+    throw InputError(name(), "/" + choice->field, refusal_text(*choice, reason));
 }
 
 std::string InstanceArguments::name() const {

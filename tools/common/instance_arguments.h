@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "io/instance_file.h"
 
@@ -23,6 +24,10 @@ class InstanceArguments {
   // Reads the instance and its map. Prints warnings on standard error if `prints_messages`. Throws
   // InputError for bad files and CLI::ValidationError if the arguments contradict each other.
   LoadedInstance load(bool prints_messages = true) const;
+
+  // Throws InputError with the place of the first choice in the file if `instance`, which load()
+  // returned, has choices. `reason`: see refusal_text() in model/choices.h.
+  void require_no_choices(const Instance& instance, std::string_view reason) const;
 
   // Returns the name of the instance for messages and results: its path, or "standard input".
   std::string name() const;

@@ -95,7 +95,7 @@ class Execution {
   Execution(const CLI::App& app, const ExecuteArguments& arguments)
       : a_(arguments),
         options_(options_text(app)),
-        loaded_(arguments.instance.load()),
+        loaded_(load(arguments.instance)),
         claimed_(read_plan_to_execute(arguments.plan, loaded_.instance)),
         order_(loaded_.instance, *claimed_.solution.plan) {}
 
@@ -113,6 +113,12 @@ class Execution {
   }
 
  private:
+  static LoadedInstance load(const InstanceArguments& arguments) {
+    LoadedInstance loaded = arguments.load();
+    arguments.require_no_choices(loaded.instance, "passing orders do not support yet");
+    return loaded;
+  }
+
   static void write(const std::string& file, const std::string& text) {
     write_file_atomically(file, text);
     fmt::print("wrote {}\n", file);

@@ -43,14 +43,19 @@ std::string agents_text(const Instance& instance) {
          traits_text<Agent>(
              instance.agents(),
              {{[](const Agent& a) { return a.motion.turn_steps > 0; }, "turning"},
-              {[](const Agent& a) { return !a.goal && !a.is_idle(); }, "without a goal"},
-              {[](const Agent& a) { return a.is_idle(); }, "with nothing to do"}});
+              {[](const Agent& a) { return !a.has_destination() && !a.is_idle(); },
+               "without a goal"},
+              {[](const Agent& a) { return !a.goals.empty(); }, "with a choice of goals"},
+              {[](const Agent& a) { return a.is_idle() && a.options.empty(); },
+               "with nothing to do"}});
 }
 
 std::string tasks_text(const Instance& instance) {
   return count_text(instance.task_count(), "task") +
-         traits_text<Task>(instance.tasks(),
-                           {{[](const Task& t) { return t.duration > 0; }, "taking time"}});
+         traits_text<Task>(
+             instance.tasks(),
+             {{[](const Task& t) { return t.duration > 0; }, "taking time"},
+              {[](const Task& t) { return !t.needs_all(); }, "with a choice of agents"}});
 }
 
 std::string cost_text(std::optional<Cost> cost) {

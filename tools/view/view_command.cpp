@@ -251,8 +251,14 @@ void run(const ViewArguments& arguments, const PictureMaker& maker) {
   for (const std::string& file : arguments.plans)
     plans.push_back(
         {fs::path(file).filename().string(), read_plan_of_any_tool(file, loaded.instance)});
-  if (!arguments.drive.empty()) return show_drive(arguments, loaded.instance, plans.front());
-  if (!arguments.proof.empty()) return show_proof(arguments, loaded.instance, plans);
+  if (!arguments.drive.empty()) {
+    arguments.instance.require_no_choices(loaded.instance, "passing orders do not support yet");
+    return show_drive(arguments, loaded.instance, plans.front());
+  }
+  if (!arguments.proof.empty()) {
+    arguments.instance.require_no_choices(loaded.instance, "certificates do not support yet");
+    return show_proof(arguments, loaded.instance, plans);
+  }
   for (const NamedPlan& plan : plans) warn_if_invalid(loaded.instance, plan, warnings);
   if (arguments.wants_pictures() && plans.size() > 1)
     warnings.push_back("pictures show only the first plan");

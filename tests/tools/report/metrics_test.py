@@ -195,7 +195,7 @@ class Refusals(Folder):
                 ("time_limit_s", 0, "a number above 0"), ("solved", "yes", "true or false"),
                 ("solved", 1, "true or false"), ("omega", "nan", "a number of at least 0, or inf"),
                 ("omega", "-1", "a number of at least 0, or inf"), ("method", 3, "a text"),
-                ("problem", "tsp", "one of mg, cts, mixed, mapf"),
+                ("problem", "tsp", "one of mg, cts, mixed, mapf, choices"),
                 ("counts", "bypasses", "numbers as name=7, separated by blanks"),
                 ("counts", {"bypasses": 7}, "numbers as name=7, separated by blanks"),
                 ("counts", "bypasses=-1 a=2", "numbers as name=7, separated by blanks"),

@@ -327,7 +327,7 @@ impl Instance {
             let place = names.end(&world, value.get("cell"), &at)?;
             let duration = require(value.get("duration").map_or(Some(0), Json::number).filter(|&steps| steps <= 65536), &at, "a duration")?;
             ends += &format!("task {} {}", place, duration);
-            for id in require(value.get("agents").and_then(Json::list).filter(|ids| !ids.is_empty()), &at, "agents")? {
+            for id in require(value.get("agents").and_then(Json::list).filter(|ids| !ids.is_empty()), &at, "agents, a list of ids")? {
                 let agent = *require(id.text().and_then(|id| agent_ids.get(id)), &at, "ids of agents")?;
                 let own: &mut Vec<u32> = &mut agents[agent as usize].tasks;
                 require(Some(()).filter(|_| own.last() != Some(&(number as u32))), &at, "no agent twice")?;

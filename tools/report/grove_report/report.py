@@ -18,7 +18,8 @@ from .tables import csv_text
 PROBLEM_NAMES = {"mg": "MG-MAPF (agents without destinations)",
                  "cts": "CTS-MAPF (agents with tasks and destinations)",
                  "mixed": "mixed (some agents with a destination, some without)",
-                 "mapf": "classical MAPF (destinations, no tasks)"}
+                 "mapf": "classical MAPF (destinations, no tasks)",
+                 "choices": "choices (agents choose tasks or destinations)"}
 # Maximum number of columns of a comparison that are readable side by side on a narrow screen.
 WIDEST = 3
 # Names of the files of a report. make_report() removes such files of an earlier report from the directory.

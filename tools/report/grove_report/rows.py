@@ -8,7 +8,7 @@ from typing import NamedTuple, Optional
 
 from .tables import text_of_cell
 
-PROBLEMS = ("mg", "cts", "mixed", "mapf")
+PROBLEMS = ("mg", "cts", "mixed", "mapf", "choices")
 INVALID, CLAIMED, UNSUPPORTED = "invalid", "claimed", "unsupported"  # invalid plan; claim without plan; not supported
 STATUSES = ("optimal", "bounded", "feasible", "infeasible", "unknown", "error", INVALID, CLAIMED, UNSUPPORTED)
 STATUSES_WITH_PLAN = ("optimal", "bounded", "feasible")

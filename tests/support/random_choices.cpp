@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/support/choices.h"
+#include "tests/support/random_choices.h"
 
 #include <algorithm>
 #include <string>
