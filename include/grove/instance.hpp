@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// CTS-MAPF instances: agents (robots) with starts and destinations, and the tasks that each agent
-/// must visit in an order that the solver chooses.
+/// CTS-MAPF instances: agents (robots) with starts and destinations, and the tasks that agents must
+/// or may visit in an order that the solver chooses.
 #pragma once
 
 #include <cstddef>
@@ -28,22 +28,34 @@ struct WorkBegun {
 struct Agent {
   std::string id = {};  ///< Unique among agents; not empty.
   Pose start = {};      ///< Pose at time 0. No two agents have the same start place.
-  /// Destination; no two agents have the same. std::nullopt: the agent ends at the place of one of
-  /// its own tasks or, without tasks, at any place, so that it can make way for others.
+  /// Destination; no two agents have the same. std::nullopt and no `goals`: the agent ends at the
+  /// place of a task that it has visited or, without tasks that it must visit, at any place, so
+  /// that it can make way for others.
   std::optional<Place> goal = std::nullopt;
   /// Time steps that a quarter turn takes, for an agent that moves only in the direction of its
   /// heading. 0: it moves in any direction. Must be 0 on roadmaps.
   int turn_steps = 0;
-  std::optional<Heading> goal_heading = std::nullopt;  ///< Heading at `goal`; std::nullopt: any.
-  std::optional<WorkBegun> working = std::nullopt;     ///< Task in progress at time 0.
+  /// Heading at `goal`, or at the chosen one of `goals`; std::nullopt: any.
+  std::optional<Heading> goal_heading = std::nullopt;
+  std::optional<WorkBegun> working = std::nullopt;  ///< Task in progress at time 0.
+  /// Places on any one of which the agent may end; distinct. Several agents may list the same
+  /// place. Not together with `goal`.
+  std::vector<Place> goals = {};
 };
 
-/// A place that each agent of a list must visit at least once, at any time from 0 on.
+/// A place that agents of a list visit, at any time from 0 on: `need` of them must visit it at
+/// least once.
 struct Task {
   std::string id = {};                   ///< Unique among tasks; not empty.
   Place place = {};                      ///< A cell or a vertex. Tasks may share a place.
-  std::vector<std::string> agents = {};  ///< Ids of the agents that must visit it, distinct, >= 1.
+  std::vector<std::string> agents = {};  ///< Ids of its agents, distinct, >= 1.
   int duration = 0;  ///< Time steps that its execution takes; 0: a visit is enough.
+  /// Number of its agents that must visit it, from 1 on; std::nullopt: all of them. If fewer than
+  /// all must, the solver chooses them, and the plan tells each visit (AgentPlan::work).
+  std::optional<int> need = std::nullopt;
+  /// True: its agents are all agents of the instance. `agents` must then be empty or list all of
+  /// them; Instance::tasks() lists them.
+  bool all_agents = false;
 };
 
 /// Rules of motion for all agents.
@@ -64,7 +76,9 @@ class GROVE_API Instance {
   World world() const;                       ///< Grid or roadmap.
   const std::vector<Agent>& agents() const;  ///< In the order given; lives as long as any copy.
   const std::vector<Task>& tasks() const;    ///< In the order given; lives as long as any copy.
-  Rules rules() const;                       ///< Rules of motion for all agents.
+  /// Returns true if an agent may choose its destination, or whether to visit a task.
+  bool has_choices() const;
+  Rules rules() const;  ///< Rules of motion for all agents.
 
  private:
   friend struct Access;

@@ -16,7 +16,8 @@
 
 namespace grove {
 
-/// Execution of a task with a duration by an agent.
+/// A visit that the plan tells: the execution of a task with a duration, or the visit to a task
+/// that only some of its agents must visit (Task::need).
 struct Work {
   std::string task = {};  ///< Id of the task.
   int begin = 0;          ///< Start time; negative if the execution started before time 0.
@@ -28,8 +29,10 @@ struct AgentPlan {
   std::string id = {};          ///< Id of the agent.
   int cost = 0;                 ///< Finish time: it rests from then on, with all tasks done.
   std::vector<Pose> path = {};  ///< Poses at times 0, ..., cost (cost + 1 entries).
-  std::vector<std::string> tasks = {};  ///< Ids of its tasks, in an order of completion.
-  std::vector<Work> work = {};          ///< One entry for each of its tasks with a duration.
+  /// Ids of the tasks that it must visit and of those that it visits by choice, in an order of
+  /// completion.
+  std::vector<std::string> tasks = {};
+  std::vector<Work> work = {};  ///< The visits that the plan tells.
 };
 
 /// Plan of all agents.
@@ -110,10 +113,16 @@ GROVE_API std::vector<Violation> check(const Instance& instance, const Solution&
 /// Returns the plan with the given paths. `paths` has one path per agent, in the order of the
 /// instance: its places at times 0, 1, ... Computes the costs and the order of the tasks, but does
 /// not check the plan. Throws InvalidArgument if the number of paths is wrong, for places that do
-/// not exist, and for instances with turning agents or task durations, because their plans are not
-/// determined by places alone.
+/// not exist, and for instances with turning agents, or with tasks that take time or that only some
+/// of their agents must visit, because their plans are not determined by places alone.
 GROVE_API Plan plan_from_paths(const Instance& instance,
                                const std::vector<std::vector<Place>>& paths);
+/// Returns the plan with the given paths and told visits. `work` has one list per agent, in the
+/// order of the instance. Like the overload above, but tasks may take time, and only some of their
+/// agents may have to visit them. Also throws InvalidArgument for tasks that do not exist.
+GROVE_API Plan plan_from_paths(const Instance& instance,
+                               const std::vector<std::vector<Place>>& paths,
+                               const std::vector<std::vector<Work>>& work);
 
 /// Reads a plan file for `instance`. Does not verify the plan or its claims; for that, use check().
 /// Throws InputError.

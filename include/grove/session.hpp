@@ -24,7 +24,9 @@ using Late [[deprecated("use grove::Delay")]] = Delay;
 
 /// Changes to an instance during execution.
 struct Change {
-  std::vector<Task> new_tasks = {};             ///< New tasks, of existing agents.
+  /// New tasks, of existing agents, all of which must visit them (no Task::need below their
+  /// number).
+  std::vector<Task> new_tasks = {};
   std::vector<std::string> dropped_tasks = {};  ///< Ids of unvisited tasks to remove.
   std::vector<Place> blocked = {};  ///< Cells to block, or vertices with all their roads.
 };
@@ -34,10 +36,11 @@ struct Change {
 /// destroyed. One thread at a time.
 class GROVE_API Session {
  public:
-  /// Creates a session without a plan.
+  /// Creates a session without a plan. Throws InvalidArgument for an instance with choices
+  /// (Instance::has_choices()), which sessions do not support yet.
   explicit Session(Instance instance);
   /// Creates a session with a plan of the instance. Throws InvalidArgument with field() "/plan/..."
-  /// if the plan is not valid.
+  /// if the plan is not valid, and like the constructor above.
   Session(Instance instance, const Plan& plan);
   ~Session();
   Session(Session&&) noexcept;             ///< Move constructor.

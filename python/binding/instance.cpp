@@ -51,7 +51,9 @@ void add_instance(py::module_& module) {
       "Robots with starts and goals, and the tasks that they visit in any order. Immutable.\n\n"
       "Instance(world, agents, tasks): agents and tasks are dicts as in *.cts.json files: "
       "{'id': 'red', 'start': (0, 0), 'goal': (3, 2)}, "
-      "{'id': 'press', 'cell': (1, 2), 'agents': ['red'], 'duration': 3}.")
+      "{'id': 'press', 'cell': (1, 2), 'agents': ['red'], 'duration': 3}. A robot may have a "
+      "choice "
+      "of 'goals', and a task a 'need' of fewer than all its agents.")
       .def(py::init(&made), py::arg("world"), py::arg("agents"), py::arg("tasks") = py::list(),
            py::kw_only(), py::arg("following") = true)
       .def_property_readonly("world", &Instance::world, "The world that the robots move on.")
@@ -64,6 +66,9 @@ void add_instance(py::module_& module) {
       .def_property_readonly(
           "following", [](const Instance& i) { return i.rules().following; },
           "Whether a robot may enter a place in the step in which another leaves it.")
+      .def_property_readonly(
+          "has_choices", &Instance::has_choices,
+          "Whether a robot may choose its destination, or whether to visit a task.")
       .def(
           "write",
           [](const Instance& i, const std::filesystem::path& path) { write_instance(path, i); },

@@ -110,7 +110,29 @@ py::list work_of(const AgentPlan& agent) {
   return all;
 }
 
-PlanOfInstance from_paths(const Instance& instance, const py::object& given) {
+Work visit_of(const py::object& visit, const std::string& field) {
+  constexpr const char* kExpected = "(task, begin, end)";
+  const std::vector<py::object> parts = elements_of(visit, field, kExpected);
+  if (parts.size() != 3)
+    throw InvalidArgument(field, "found " + text_of_found(visit) + "; expected " + kExpected);
+  return {value_of<std::string>(parts[0], field + "/0", "the id of a task"),
+          value_of<int>(parts[1], field + "/1", "a whole number of steps"),
+          value_of<int>(parts[2], field + "/2", "a whole number of steps")};
+}
+
+std::vector<std::vector<Work>> visits_of(const py::object& given) {
+  std::vector<std::vector<Work>> all;
+  for (const py::object& agent : elements_of(given, "/work", "a list of visits for each agent")) {
+    const std::string field = "/work/" + std::to_string(all.size());
+    std::vector<Work>& visits = all.emplace_back();
+    for (const py::object& visit : elements_of(agent, field, "a list of (task, begin, end)"))
+      visits.push_back(visit_of(visit, field + "/" + std::to_string(visits.size())));
+  }
+  return all;
+}
+
+PlanOfInstance from_paths(const Instance& instance, const py::object& given,
+                          const py::object& work) {
   std::vector<std::vector<Place>> paths;
   for (const py::object& path :
        elements_of(given, "/paths", "a list of paths, one for each agent")) {
@@ -120,7 +142,9 @@ PlanOfInstance from_paths(const Instance& instance, const py::object& given) {
       places.push_back(
           value_of<Place>(place, field + "/" + std::to_string(places.size()), kPlaceExpected));
   }
-  return {instance, std::make_shared<const Plan>(plan_from_paths(instance, paths))};
+  return {instance, std::make_shared<const Plan>(
+                        work.is_none() ? plan_from_paths(instance, paths)
+                                       : plan_from_paths(instance, paths, visits_of(work)))};
 }
 
 py::list violation_list(const std::vector<Violation>& violations) {
@@ -154,10 +178,11 @@ void add_agent_plan(py::module_& module) {
                     "Finish time in steps: from then on the robot rests, with all its tasks done.")
       .def_property_readonly("path", &path_of, "Places at times 0, 1, ..., cost.")
       .def_readonly("tasks", &AgentPlan::tasks,
-                    "Ids of the tasks of the robot, in order of completion.")
+                    "Ids of the tasks that the robot visits, in order of completion.")
       .def_property_readonly(
           "work", &work_of,
-          "Executions of tasks with a duration, as [(task, begin, end), ...], in steps.")
+          "Visits that the plan tells, as [(task, begin, end), ...], in steps: executions of tasks "
+          "with a duration, and visits to tasks that only some of their agents must visit.")
       .def("__repr__", [](const AgentPlan& agent) {
         return "<grove.AgentPlan: " + agent.id + ", cost " + std::to_string(agent.cost) + ">";
       });
@@ -171,8 +196,11 @@ void add_plan(py::module_& module) {
       module, "Plan",
       "A path for every robot of an instance. Immutable.\n\n"
       "Plan(instance, paths): from lists of places, or an array of agents x times "
-      "x 2; costs and orders of visits are computed.")
-      .def(py::init(&from_paths), py::arg("instance"), py::arg("paths"))
+      "x 2; costs and orders of visits are computed.\n\n"
+      "Plan(instance, paths, work): with the visits that the plan tells, for each agent a list of "
+      "(task, begin, end); see AgentPlan.work.")
+      .def(py::init(&from_paths), py::arg("instance"), py::arg("paths"),
+           py::arg("work") = py::none())
       .def_property_readonly(
           "instance", [](const PlanOfInstance& p) { return p.instance; },
           "The instance of the plan.")

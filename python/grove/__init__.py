@@ -227,7 +227,7 @@ class Session:
     def change(self, new_tasks=(), dropped_tasks=(), blocked=()):
         """Changes the instance; the next replan() repairs the plan.
 
-        new_tasks: tasks as in an instance.
+        new_tasks: tasks as in an instance; all their agents must visit them.
         dropped_tasks: ids of tasks that no robot has to visit any more.
         blocked: cells to block, or vertices to block with all their roads.
 

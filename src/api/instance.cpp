@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "api/access.h"
@@ -25,6 +27,8 @@ detail::AgentSpec spec_of(const detail::Map& map, const Agent& agent, const std:
       .id = agent.id, .start = {}, .goal = std::nullopt, .motion = {agent.turn_steps}};
   spec.start = pose_of(map, spec.motion, agent.start, field + "/start");
   if (agent.goal) spec.goal = place_of(map, *agent.goal, field + "/goal");
+  for (const Place& goal : agent.goals)
+    spec.goals.push_back(place_of(map, goal, fmt::format("{}/goals/{}", field, spec.goals.size())));
   if (agent.goal_heading) spec.goal_heading = heading_of(*agent.goal_heading);
   if (agent.working) spec.working = {agent.working->task, agent.working->done};
   return spec;
@@ -42,6 +46,27 @@ void added(const std::string& field, Add&& add) {
   }
 }
 
+std::vector<std::string> ids_of(const std::vector<Agent>& agents) {
+  std::vector<std::string> ids;
+  for (const Agent& agent : agents) ids.push_back(agent.id);
+  return ids;
+}
+
+// Lists all agents in the tasks of all agents.
+std::vector<Task> with_agents(std::vector<Task> tasks, const std::vector<Agent>& agents) {
+  const std::vector<std::string> ids = ids_of(agents);
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    if (!tasks[i].all_agents) continue;
+    if (!tasks[i].agents.empty() && !std::ranges::is_permutation(tasks[i].agents, ids))
+      throw InvalidArgument(fmt::format("/tasks/{}/agents", i),
+                            fmt::format("found a list of {} agents, and all_agents; expected one "
+                                        "of them",
+                                        tasks[i].agents.size()));
+    tasks[i].agents = ids;
+  }
+  return tasks;
+}
+
 detail::Instance built(const World& world, const std::vector<Agent>& agents,
                        const std::vector<Task>& tasks, Rules rules) {
   const detail::Map& map = *Access::map(world);
@@ -54,7 +79,9 @@ detail::Instance built(const World& world, const std::vector<Agent>& agents,
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const std::string field = fmt::format("/tasks/{}", i);
     const detail::Place place = place_of(map, tasks[i].place, field + "/place");
-    added(field, [&] { builder.add_task(tasks[i].id, place, tasks[i].agents, tasks[i].duration); });
+    added(field, [&] {
+      builder.add_task(tasks[i].id, place, tasks[i].agents, tasks[i].duration, tasks[i].need);
+    });
   }
   return with_public_exceptions([&] { return std::move(builder).build(); });
 }
@@ -66,6 +93,7 @@ Agent public_agent(const detail::Instance& instance, detail::AgentIndex index) {
               .start = public_pose(map, spec.motion, spec.start),
               .turn_steps = spec.motion.turn_steps};
   if (spec.goal) agent.goal = public_place(map, *spec.goal);
+  for (const detail::Place goal : spec.goals) agent.goals.push_back(public_place(map, goal));
   if (spec.goal_heading) agent.goal_heading = public_heading(*spec.goal_heading);
   if (spec.working) agent.working = WorkBegun{spec.working->task, spec.working->done};
   return agent;
@@ -78,6 +106,9 @@ Task public_task(const detail::Instance& instance, const detail::Task& task) {
                  .duration = task.duration};
   for (const detail::AgentIndex agent : task.agents)
     to_public.agents.push_back(instance.agent(agent).id);
+  if (task.needs_all()) return to_public;
+  to_public.need = task.need;
+  to_public.all_agents = std::ssize(task.agents) == instance.agent_count();
   return to_public;
 }
 
@@ -113,6 +144,7 @@ Instance Access::to_public(detail::Instance instance) {
 }
 
 Instance::Instance(World world, std::vector<Agent> agents, std::vector<Task> tasks, Rules rules) {
+  tasks = with_agents(std::move(tasks), agents);
   detail::Instance instance = built(world, agents, tasks, rules);
   data_ = std::make_shared<const Data>(
       Data{std::move(world), std::move(agents), std::move(tasks), std::move(instance)});
@@ -126,6 +158,9 @@ const std::vector<Agent>& Instance::agents() const {
 }
 const std::vector<Task>& Instance::tasks() const {
   return data_->tasks;
+}
+bool Instance::has_choices() const {
+  return data_->instance.has_choices();
 }
 Rules Instance::rules() const {
   return {.following = data_->instance.may_follow()};

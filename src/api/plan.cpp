@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
@@ -164,11 +165,12 @@ std::vector<Violation> check(const Instance& instance, const Solution& solution,
   });
 }
 
-Plan plan_from_paths(const Instance& instance, const std::vector<std::vector<Place>>& paths) {
-  const detail::Instance& inner = Access::instance(instance);
+namespace {
+
+std::vector<detail::Path> paths_of(const detail::Instance& inner,
+                                   const std::vector<std::vector<Place>>& paths) {
   if (!detail::paths_are_places(inner))
-    throw InvalidArgument("/agents",
-                          "found robots that turn or tasks that take time; expected neither");
+    throw InvalidArgument("/agents", "found robots that turn; expected none");
   if (static_cast<int>(paths.size()) != inner.agent_count())
     throw InvalidArgument("/agents",
                           fmt::format("{} paths; expected {}", paths.size(), inner.agent_count()));
@@ -179,8 +181,48 @@ Plan plan_from_paths(const Instance& instance, const std::vector<std::vector<Pla
       own.push_back(place_of(inner.map(), place,
                              fmt::format("/agents/{}/path/{}", made.size() - 1, own.size())));
   }
-  return with_public_exceptions(
-      [&] { return public_plan(inner, detail::plan_of_paths(inner, std::move(made))); });
+  return made;
+}
+
+detail::Visits visits_of(const detail::Instance& inner,
+                         const std::vector<std::vector<Work>>& work) {
+  if (static_cast<int>(work.size()) != inner.agent_count())
+    throw InvalidArgument(
+        "/work", fmt::format("{} lists of visits; expected {}", work.size(), inner.agent_count()));
+  const auto tasks = tasks_by_id(inner);
+  detail::Visits made;
+  for (const std::vector<Work>& visits : work) {
+    std::vector<detail::WorkTime>& own = made.emplace_back();
+    for (const Work& visit : visits) {
+      const std::string field = fmt::format("/work/{}/{}/task", made.size() - 1, own.size());
+      own.push_back({task_of(tasks, visit.task, field), visit.begin, visit.end});
+    }
+  }
+  return made;
+}
+
+}  // namespace
+
+Plan plan_from_paths(const Instance& instance, const std::vector<std::vector<Place>>& paths) {
+  const detail::Instance& inner = Access::instance(instance);
+  const auto told = std::ranges::find_if(inner.tasks(), &detail::Task::is_told);
+  if (told != inner.tasks().end())
+    throw InvalidArgument(
+        "/work",
+        fmt::format("task '{}' {}; expected the visits that the plan "
+                    "tells",
+                    told->id, told->duration > 0 ? "takes time" : "has a choice of agents"));
+  return plan_from_paths(instance, paths, std::vector<std::vector<Work>>(paths.size()));
+}
+
+Plan plan_from_paths(const Instance& instance, const std::vector<std::vector<Place>>& paths,
+                     const std::vector<std::vector<Work>>& work) {
+  const detail::Instance& inner = Access::instance(instance);
+  return with_public_exceptions([&] {
+    std::vector<detail::Path> made = paths_of(inner, paths);
+    return public_plan(inner,
+                       detail::plan_of_paths(inner, std::move(made), visits_of(inner, work)));
+  });
 }
 
 Solution read_plan(const std::filesystem::path& path, const Instance& instance) {

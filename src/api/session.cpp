@@ -22,6 +22,26 @@ detail::AgentIndex agent_of(const detail::Instance& instance, const std::string&
   return static_cast<detail::AgentIndex>(found - agents.begin());
 }
 
+// Returns the ids of the agents of a new task, all of which must visit it.
+std::vector<std::string> agents_of(const detail::Instance& instance, const Task& task,
+                                   const std::string& field) {
+  std::vector<std::string> ids = task.agents;
+  if (task.all_agents) {
+    ids.clear();
+    for (const detail::Agent& agent : instance.agents()) ids.push_back(agent.id);
+    if (!task.agents.empty() && !std::ranges::is_permutation(task.agents, ids))
+      throw InvalidArgument(field + "/agents",
+                            "found a list of some agents, and all_agents; "
+                            "expected one of them");
+  }
+  if (task.need && *task.need != static_cast<int>(ids.size()))
+    throw InvalidArgument(field + "/need",
+                          fmt::format("found {}; expected {}, the number of its agents, because "
+                                      "re-planning does not support choices yet",
+                                      *task.need, ids.size()));
+  return ids;
+}
+
 }  // namespace
 
 struct Session::Impl {
@@ -29,12 +49,16 @@ struct Session::Impl {
 };
 
 Session::Session(Instance instance)
-    : impl_(std::make_unique<Impl>(Impl{detail::Session(Access::instance(instance))})) {}
+    : impl_(with_public_exceptions([&] {
+        return std::make_unique<Impl>(Impl{detail::Session(Access::instance(instance))});
+      })) {}
 
 Session::Session(Instance instance, const Plan& plan)
-    : impl_(std::make_unique<Impl>(Impl{detail::Session(
-          Access::instance(instance), valid_plan_of(Access::instance(instance), plan, "/plan"))})) {
-}
+    : impl_(with_public_exceptions([&] {
+        const detail::Instance& inner = Access::instance(instance);
+        return std::make_unique<Impl>(
+            Impl{detail::Session(inner, valid_plan_of(inner, plan, "/plan"))});
+      })) {}
 
 Session::~Session() = default;
 Session::Session(Session&&) noexcept = default;
@@ -77,8 +101,10 @@ void Session::change(const Change& change) {
   made.dropped_tasks = change.dropped_tasks;
   for (std::size_t i = 0; i < change.new_tasks.size(); ++i) {
     const Task& task = change.new_tasks[i];
-    const detail::Place place = place_of(map, task.place, fmt::format("/new_tasks/{}/place", i));
-    made.new_tasks.push_back({task.id, place, task.agents, task.duration});
+    const std::string field = fmt::format("/new_tasks/{}", i);
+    const detail::Place place = place_of(map, task.place, field + "/place");
+    made.new_tasks.push_back(
+        {task.id, place, agents_of(session.instance(), task, field), task.duration});
   }
   for (std::size_t i = 0; i < change.blocked.size(); ++i)
     made.blocked.push_back(place_of(map, change.blocked[i], fmt::format("/blocked/{}", i)));

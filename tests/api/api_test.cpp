@@ -178,7 +178,118 @@ TEST(Api, PlanFromPathsFindsCostAndTasks) {
               plan_from_paths(instance, {{Cell{0, 0}, Cell{9, 9}}});
             }),
             "/agents/0/path/1");
-  EXPECT_EQ(field_of([&] { plan_from_paths(small(), {path, path}); }), "/agents");
+  EXPECT_EQ(field_of([&] { plan_from_paths(small(), {path, path}); }), "/work");
+}
+
+// One of three agents must look; red may end on either of two cells.
+Instance with_choices() {
+  return Instance(
+      World::from_rows(kRows),
+      {{.id = "red", .start = {Cell{0, 0}}, .goals = {Cell{4, 2}, Cell{2, 0}}},
+       {.id = "blue", .start = {Cell{4, 0}}, .goal = Cell{4, 0}},
+       {.id = "idle", .start = {Cell{4, 2}}}},
+      {{.id = "look", .place = Cell{1, 0}, .need = 1, .all_agents = true},
+       {.id = "push", .place = Cell{2, 0}, .agents = {"red", "blue"}, .duration = 2, .need = 1}});
+}
+
+Plan plan_with_choices() {
+  const std::vector<Place> red{Cell{0, 0}, Cell{1, 0}, Cell{2, 0}};
+  return plan_from_paths(with_choices(), {red, {Cell{4, 0}}, {Cell{4, 2}}},
+                         {{{"look", 1, 1}, {"push", 2, 4}}, {}, {}});
+}
+
+TEST(Api, InstancesHaveChoices) {
+  const Instance instance = with_choices();
+  EXPECT_TRUE(instance.has_choices());
+  EXPECT_FALSE(small().has_choices());
+  EXPECT_THAT(instance.tasks()[0].agents, ElementsAre("red", "blue", "idle"));
+  const Instance again = parse_instance(instance_text(instance), instance.world());
+  EXPECT_EQ(instance_text(again), instance_text(instance));
+  EXPECT_THAT(again.agents()[0].goals, ElementsAre(Place(Cell{4, 2}), Place(Cell{2, 0})));
+  EXPECT_EQ(again.agents()[0].goal, std::nullopt);
+  EXPECT_EQ(again.tasks()[0].need, 1);
+  EXPECT_TRUE(again.tasks()[0].all_agents);
+  EXPECT_THAT(again.tasks()[0].agents, ElementsAre("red", "blue", "idle"));
+  EXPECT_EQ(again.tasks()[1].need, 1);
+  EXPECT_FALSE(again.tasks()[1].all_agents);
+  const Instance rebuilt(again.world(), again.agents(), again.tasks());
+  EXPECT_EQ(instance_text(rebuilt), instance_text(instance));
+  EXPECT_EQ(small().tasks()[0].need, std::nullopt);
+}
+
+TEST(Api, BadChoicesAreRefused) {
+  const auto field = [](std::vector<Place> goals, std::optional<Place> goal, Task task) {
+    return field_of([&] {
+      Instance(World::from_rows(kRows),
+               {{.id = "red", .start = {Cell{0, 0}}, .goal = goal, .goals = goals}}, {task});
+    });
+  };
+  const Task task{.id = "t", .place = Cell{1, 0}, .agents = {"red"}};
+  EXPECT_EQ(field({Cell{1, 1}}, {}, task), "/agents/0/goals/0");
+  EXPECT_EQ(field({Cell{0, 0}, Cell{9, 9}}, {}, task), "/agents/0/goals/1");
+  EXPECT_EQ(field({Cell{0, 0}, Cell{0, 0}}, {}, task), "/agents/0/goals/1");
+  EXPECT_EQ(field({Cell{0, 0}}, Cell{2, 0}, task), "/agents/0/goals");
+  for (const int need : {-1, 0, 2}) {
+    Task other = task;
+    other.need = need;
+    EXPECT_EQ(field({}, {}, other), "/tasks/0/need") << need;
+  }
+  Task none = task;
+  none.agents.clear();
+  EXPECT_EQ(field({}, {}, none), "/tasks/0/agents");
+  Task both = task;
+  both.all_agents = true;
+  EXPECT_EQ(field({}, {}, both), "nothing thrown");
+  both.agents = {"green"};
+  EXPECT_EQ(field({}, {}, both), "/tasks/0/agents");
+}
+
+TEST(Api, PlansTellVisits) {
+  const Instance instance = with_choices();
+  const Plan plan = plan_with_choices();
+  EXPECT_EQ(plan.cost, 4);
+  EXPECT_THAT(plan.agents[0].tasks, ElementsAre("look", "push"));
+  ASSERT_EQ(plan.agents[0].work.size(), 2u);
+  EXPECT_EQ(plan.agents[0].work[0].begin, 1);
+  EXPECT_EQ(plan.agents[0].work[0].end, 1);
+  EXPECT_THAT(check(instance, plan), IsEmpty());
+  Solution solution{.status = Status::optimal, .plan = plan, .lower_bound = 4};
+  const std::string text = plan_text(instance, solution);
+  EXPECT_EQ(plan_text(instance, parse_plan(text, instance)), text);
+  Plan untold = plan;
+  untold.agents[0].work.erase(untold.agents[0].work.begin());
+  untold.agents[0].tasks = {"push"};
+  const std::vector<Violation> wrong = check(instance, untold);
+  ASSERT_EQ(wrong.size(), 1u);
+  EXPECT_EQ(wrong[0].message, "task 'look' is visited by 0 of its agents; expected at least 1");
+}
+
+TEST(Api, PlansFromPathsNeedTheToldVisits) {
+  const std::vector<std::vector<Place>> paths{{Cell{0, 0}}, {Cell{4, 0}}, {Cell{4, 2}}};
+  EXPECT_EQ(field_of([&] { plan_from_paths(with_choices(), paths); }), "/work");
+  EXPECT_EQ(field_of([&] { plan_from_paths(with_choices(), paths, {{}, {}}); }), "/work");
+  EXPECT_EQ(field_of([&] {
+              plan_from_paths(with_choices(), paths, {{}, {{"none", 0, 0}}, {}});
+            }),
+            "/work/1/0/task");
+}
+
+TEST(Api, ChoicesAreNotSolvedYet) {
+  const Instance instance = with_choices();
+  EXPECT_EQ(field_of([&] { solve(instance); }), "/method");
+  EXPECT_EQ(field_of([&] { Session session(instance); }), "/agents/0/goals");
+  EXPECT_EQ(field_of([&] { Session session(instance, plan_with_choices()); }), "/agents/0/goals");
+  Session session(small());
+  Task task{.id = "new", .place = Cell{1, 0}, .agents = {"red", "blue"}, .need = 1};
+  EXPECT_EQ(field_of([&] { session.change({.new_tasks = {task}}); }), "/new_tasks/0/need");
+  task.need = 2;
+  EXPECT_EQ(field_of([&] { session.change({.new_tasks = {task}}); }), "nothing thrown");
+  EXPECT_EQ(
+      field_of([&] {
+        session.change({.new_tasks = {{.id = "all", .place = Cell{1, 0}, .all_agents = true}}});
+      }),
+      "nothing thrown");
+  EXPECT_THAT(session.instance().tasks().back().agents, ElementsAre("red", "blue"));
 }
 
 TEST(Api, PlansRoundTripThroughFiles) {
