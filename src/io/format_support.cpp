@@ -4,12 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <vector>
-
-#include "model/choices.h"
 
 namespace grove::detail {
 namespace {
@@ -22,20 +19,13 @@ std::string task_field(TaskIndex task) {
   return fmt::format("tasks/{}", task);
 }
 
-// The tasks that the agent must or may visit, in ascending order.
-std::vector<TaskIndex> all_tasks(const Agent& agent) {
-  std::vector<TaskIndex> all;
-  std::ranges::merge(agent.tasks, agent.options, std::back_inserter(all));
-  return all;
-}
-
 // Returns the tasks in the order of their first appearance in the agents' lists, agent by agent.
 // Precondition: agents must visit all their tasks.
 std::vector<TaskIndex> order_of_appearance(const Instance& instance) {
   std::vector<TaskIndex> order;
   std::vector<bool> seen(instance.task_count());
   for (const Agent& agent : instance.agents()) {
-    for (TaskIndex task : all_tasks(agent)) {
+    for (TaskIndex task : agent.tasks) {
       if (seen[task]) continue;
       seen[task] = true;
       order.push_back(task);
@@ -100,14 +90,19 @@ void require_free_grid(const Instance& instance, std::string_view format) {
                                          "expected tasks without a duration",
                                          instance.task(i).id, format),
                              Loss::kNothing);
-  require_no_choices_in(instance, format);
 }
 
-void require_no_choices_in(const Instance& instance, std::string_view format) {
-  if (const auto choice = find_choice(instance))
-    throw NotRepresentable(
-        choice->field, refusal_text(*choice, fmt::format("cannot be represented in {}", format)),
-        Loss::kNothing);
+void require_fixed_tasks(const Instance& instance, std::string_view format) {
+  for (TaskIndex i = 0; i < instance.task_count(); ++i) {
+    const Task& task = instance.task(i);
+    if (!task.needs_all())
+      throw NotRepresentable(
+          task_field(i),
+          fmt::format("task '{}' needs {} of its {} agents, which cannot be represented in {}; "
+                      "expected tasks that all their agents must visit",
+                      task.id, task.need, task.agents.size(), format),
+          Loss::kNothing);
+  }
 }
 
 void require_fixed_tasks(const Instance& instance, std::string_view format) {

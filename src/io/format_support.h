@@ -36,13 +36,11 @@ std::string default_agent_id(AgentIndex agent);
 std::string default_task_id(TaskIndex task);
 
 // The functions require_...() throw NotRepresentable unless `instance` has the property in their
-// name. what() names `format`. require_free_grid() requires a grid, agents that turn freely, tasks
-// that take no time, and no choices.
+// name. what() names `format`. require_free_grid() requires a grid, agents that turn freely, and
+// tasks that take no time.
 void require_free_grid(const Instance& instance, std::string_view format);
 // Requires that each agent of a task must visit it.
 void require_fixed_tasks(const Instance& instance, std::string_view format);
-// Requires that agents choose neither their destinations nor their tasks.
-void require_no_choices_in(const Instance& instance, std::string_view format);
 // Requires that no agent is idle.
 void require_work_for_all(const Instance& instance, std::string_view format);
 // Requires that no two tasks are on the same cell.

@@ -61,7 +61,9 @@ std::string key_text(const Instance& instance, AgentIndex agent) {
 
 void write_libmrp_schedule(const std::filesystem::path& path, const Instance& instance,
                            const Solution& solution) {
-  require_free_grid(instance, "libMultiRobotPlanning's schedule");
+  constexpr std::string_view kFormat = "libMultiRobotPlanning's schedule";
+  require_free_grid(instance, kFormat);
+  require_fixed_tasks(instance, kFormat);
   std::string text = statistics_text(solution) + "schedule:\n";
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     text += fmt::format("  {}:\n", key_text(instance, i));
@@ -128,7 +130,9 @@ std::string head_text(const Instance& instance, const Solution& solution, const 
 
 void write_visualizer_text(const std::filesystem::path& path, const Instance& instance,
                            const Solution& solution, const std::string& map) {
-  require_free_grid(instance, "mapf-visualizer's text");
+  constexpr std::string_view kFormat = "mapf-visualizer's text";
+  require_free_grid(instance, kFormat);
+  require_fixed_tasks(instance, kFormat);
   const Grid& grid = instance.grid();
   const std::vector<AgentPlan>& agents = solution.plan->agents;
   std::string text = head_text(instance, solution, map);
@@ -147,7 +151,9 @@ void write_visualizer_text(const std::filesystem::path& path, const Instance& in
 
 void write_path_lists(const std::filesystem::path& path, const Instance& instance,
                       const Solution& solution) {
-  require_free_grid(instance, "EECBS's path lists");
+  constexpr std::string_view kFormat = "EECBS's path lists";
+  require_free_grid(instance, kFormat);
+  require_fixed_tasks(instance, kFormat);
   std::string text;
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     text += fmt::format("Agent {}: ", i);

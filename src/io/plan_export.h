@@ -3,7 +3,8 @@
 // the agents in the order of the instance, and throws InputError if the file cannot be written.
 // Precondition: `solution` has a plan of `instance` that is valid by check().
 // write_libmrp_schedule(), write_visualizer_text() and write_path_lists() throw NotRepresentable if
-// the map is a roadmap, turns of an agent take time, or tasks take time.
+// the map is a roadmap, turns of an agent take time, or tasks take time or need only some of their
+// agents, because these formats do not tell visits.
 #pragma once
 
 #include <cstdint>

@@ -34,7 +34,6 @@ void require_expressible(const Instance& instance) {
                       instance.agent(i).id, steps),
           Loss::kNothing);
   }
-  require_no_choices_in(instance, "PlanViz's JSON");
 }
 
 char action(const Grid& grid, const Pose& from, const Pose& to, bool is_turning) {

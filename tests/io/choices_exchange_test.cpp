@@ -52,13 +52,9 @@ class ChoicesExchange : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-std::string goals_in(const std::string& format) {
-  return "agents/0/goals: agent 'a0' has a choice of goals, which cannot be represented in " +
-         format + "; expected 'goal'";
-}
 std::string need_in(const std::string& format) {
-  return "tasks/0/need: task 't0' has a choice of agents, which cannot be represented in " +
-         format + "; expected no 'need' below the number of its agents";
+  return "tasks/0: task 't0' needs 1 of its 2 agents, which cannot be represented in " + format +
+         "; expected tasks that all their agents must visit";
 }
 
 TEST_F(ChoicesExchange, PlansOfTheTestsAreValid) {
@@ -66,46 +62,77 @@ TEST_F(ChoicesExchange, PlansOfTheTestsAreValid) {
   EXPECT_TRUE(check(instance_with_need(), solution_with_need()).empty());
 }
 
-TEST_F(ChoicesExchange, InstanceFormatsRefuseChoices) {
-  const std::vector<std::pair<std::string, WriteInstance>> writers{
-      {"libMultiRobotPlanning's YAML", &write_libmrp_instance},
-      {"libMultiRobotPlanning's YAML", &write_potential_goals},
-      {"MGCBS's YAML", &write_mgcbs_instance},
-      {"MAPFW's JSON", &write_mapfw_problem},
-      {"a .scen file", [](const File& path, const Instance& instance) {
-         write_scenario_instance(path, instance, "m.map");
-       }}};
-  for (const auto& [format, write] : writers) {
-    EXPECT_EQ(refused([&](const File& path) { write(path, instance_with_goals()); }),
-              goals_in(format));
-    EXPECT_EQ(refused([&](const File& path) { write(path, instance_with_need()); }),
-              need_in(format));
+TEST_F(ChoicesExchange, InstanceFormatsRefuseNeeds) {
+  const auto refused_by = [&](const WriteInstance& write) {
+    return refused([&](const File& path) { write(path, instance_with_need()); });
+  };
+  const std::string no_tasks = "tasks/0: task 't0' cannot be represented in ";
+  const std::string yaml = "libMultiRobotPlanning's YAML; expected no tasks";
+  EXPECT_EQ(refused_by(&write_libmrp_instance), no_tasks + yaml);
+  EXPECT_EQ(refused_by(&write_potential_goals), no_tasks + yaml);
+  EXPECT_EQ(refused_by(&write_mgcbs_instance), need_in("MGCBS's YAML"));
+  EXPECT_EQ(refused_by(&write_mapfw_problem), need_in("MAPFW's JSON"));
+  EXPECT_EQ(refused_by([](const File& path, const Instance& instance) {
+              write_scenario_instance(path, instance, "m.map");
+            }),
+            no_tasks + "a .scen file; expected no tasks");
+}
+
+TEST_F(ChoicesExchange, InstanceFormatsWithoutListsRefuseGoals) {
+  const std::vector<WriteInstance> writers{&write_libmrp_instance, &write_mgcbs_instance,
+                                           &write_mapfw_problem,
+                                           [](const File& path, const Instance& instance) {
+                                             write_scenario_instance(path, instance, "m.map");
+                                           }};
+  for (const WriteInstance& write : writers) {
+    const std::string message =
+        refused([&](const File& path) { write(path, instance_with_goals()); });
+    EXPECT_TRUE(message.starts_with("agents/0: agent 'a0' ")) << message;
   }
 }
 
-TEST_F(ChoicesExchange, PlanFormatsRefuseChoices) {
+TEST_F(ChoicesExchange, PathFormatsRefuseNeeds) {
   const std::vector<std::pair<std::string, WritePlan>> writers{
       {"libMultiRobotPlanning's schedule", &write_libmrp_schedule},
       {"EECBS's path lists", &write_path_lists},
-      {"PlanViz's JSON", &write_planviz},
       {"mapf-visualizer's text",
        [](const File& path, const Instance& instance, const Solution& solution) {
          write_visualizer_text(path, instance, solution, "m.map");
-       }},
-      {"a row of MAPF Tracker",
-       [](const File& path, const Instance& instance, const Solution& solution) {
-         write_tracker_row(path, instance, solution, {"m", "even", 1}, TrackerLayout::kJson,
-                           TrackerUp::kTowardsRowZero);
        }}};
-  for (const auto& [format, write] : writers) {
-    EXPECT_EQ(refused([&](const File& path) {
-                write(path, instance_with_goals(), solution_with_goals());
-              }),
-              goals_in(format));
+  for (const auto& [format, write] : writers)
     EXPECT_EQ(
         refused([&](const File& path) { write(path, instance_with_need(), solution_with_need()); }),
         need_in(format));
-  }
+}
+
+TEST_F(ChoicesExchange, TrackerRowsRefuseChoices) {
+  const auto row = [&](const Instance& instance, const Solution& solution) {
+    return refused([&](const File& path) {
+      write_tracker_row(path, instance, solution, {"m", "even", 1}, TrackerLayout::kJson,
+                        TrackerUp::kTowardsRowZero);
+    });
+  };
+  EXPECT_EQ(row(instance_with_goals(), solution_with_goals()),
+            "agents/0: agent 'a0' chooses its goal; expected one for every agent, because a row of "
+            "MAPF Tracker requires it");
+  EXPECT_NE(row(instance_with_need(), solution_with_need()), "written");
+}
+
+// A plan that can be written as paths is read back with the same choice of goals.
+TEST_F(ChoicesExchange, PathFormatsContainTheChosenGoals) {
+  const Instance instance = instance_with_goals();
+  write_path_lists(directory_ / "paths", instance, solution_with_goals());
+  const ClaimedPlan plan = read_plan_of_any_tool(directory_ / "paths", instance);
+  EXPECT_EQ(plan.solution.plan->cost, 2);
+  EXPECT_TRUE(check(instance, plan.solution).empty());
+}
+
+// The errands of an agent are its visits, told or not.
+TEST_F(ChoicesExchange, PlanVizContainsToldVisits) {
+  write_planviz(directory_ / "out", instance_with_need(), solution_with_need());
+  const std::string text = file_content(directory_ / "out");
+  EXPECT_NE(text.find("[1,0,[0,2,0,4]]"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n  [1,1,1,1],\n  [3,1,1,2]]"), std::string::npos) << text;
 }
 
 // Waypoints name the task of each visit, told or not.

@@ -210,6 +210,7 @@ void show_drive(const ViewArguments& arguments, const Instance& instance, const 
 
 void show_proof(const ViewArguments& arguments, const Instance& instance,
                 const std::vector<NamedPlan>& plans) {
+  arguments.instance.require_no_choices(instance, "certificates do not support yet");
   const CertificateText certificate = read_certificate(arguments.proof, instance, kMaxSplits);
   const bool may_follow = certificate.may_follow;
   const Instance spoken_of = may_follow ? instance : instance.without_following();
@@ -251,14 +252,8 @@ void run(const ViewArguments& arguments, const PictureMaker& maker) {
   for (const std::string& file : arguments.plans)
     plans.push_back(
         {fs::path(file).filename().string(), read_plan_of_any_tool(file, loaded.instance)});
-  if (!arguments.drive.empty()) {
-    arguments.instance.require_no_choices(loaded.instance, "passing orders do not support yet");
-    return show_drive(arguments, loaded.instance, plans.front());
-  }
-  if (!arguments.proof.empty()) {
-    arguments.instance.require_no_choices(loaded.instance, "certificates do not support yet");
-    return show_proof(arguments, loaded.instance, plans);
-  }
+  if (!arguments.drive.empty()) return show_drive(arguments, loaded.instance, plans.front());
+  if (!arguments.proof.empty()) return show_proof(arguments, loaded.instance, plans);
   for (const NamedPlan& plan : plans) warn_if_invalid(loaded.instance, plan, warnings);
   if (arguments.wants_pictures() && plans.size() > 1)
     warnings.push_back("pictures show only the first plan");
