@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// Tests that commands support or refuse instances in which agents choose tasks or destinations.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/support/temporary_directory.h"
+#include "tests/tools/program.h"
+
+namespace grove::detail {
+namespace choices_commands_test {
+
+using ::testing::HasSubstr;
+
+const std::string kGoals = "agent 'a' has a choice of goals, which ";
+const std::string kGoalsEnd = "; expected 'goal'";
+const std::string kNeed = "task 't' has a choice of agents, which ";
+const std::string kNeedEnd = "; expected no 'need' below the number of its agents";
+
+class ChoicesCommands : public ::testing::Test {
+ protected:
+  ChoicesCommands() {
+    directory_.write("m.map", "type octile\nheight 1\nwidth 5\nmap\n.....\n");
+    directory_.write("goals.cts.json", R"({"map": "m.map", "tasks": [], "agents": [
+      {"id": "a", "start": [1, 0], "goals": [[0, 0], [2, 0]]},
+      {"id": "b", "start": [3, 0], "goal": [4, 0]}]})");
+    directory_.write("need.cts.json", R"({"map": "m.map", "agents": [
+      {"id": "a", "start": [1, 0], "goal": [0, 0]}, {"id": "b", "start": [3, 0], "goal": [4, 0]}],
+      "tasks": [{"id": "t", "cell": [2, 0], "agents": "*", "need": 1}]})");
+    directory_.write("goals.plan.json", R"({"status": "optimal", "cost": 2, "lower_bound": 2,
+      "omega": 0, "agents": [{"id": "a", "sequence": [], "cost": 1, "path": [[1, 0], [0, 0]]},
+      {"id": "b", "sequence": [], "cost": 1, "path": [[3, 0], [4, 0]]}]})");
+    directory_.write("need.plan.json", R"({"status": "optimal", "cost": 4, "lower_bound": 4,
+      "omega": 0, "agents": [{"id": "a", "sequence": [], "cost": 1, "path": [[1, 0], [0, 0]]},
+      {"id": "b", "sequence": ["t"], "cost": 3, "work": [{"task": "t", "begin": 1, "end": 1}],
+       "path": [[3, 0], [2, 0], [3, 0], [4, 0]]}]})");
+  }
+
+  ProcessResult run(const std::vector<std::string>& words) const {
+    return run_grove(words, {.directory = directory_.path()});
+  }
+  std::string refused(const std::vector<std::string>& words) const { return complaint(run(words)); }
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(directory_.path()))
+      names.push_back(entry.path().filename());
+    return names;
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(ChoicesCommands, SolveRefusesAndWritesNothing) {
+  const std::size_t before = files().size();
+  for (const std::vector<std::string>& more : {std::vector<std::string>{},
+                                               {"--proof", "p.proof"},
+                                               {"--policy", "fixed"},
+                                               {"--method", "mgcbs"},
+                                               {"--method", "cts-cbs-b"}}) {
+    std::vector<std::string> words{"solve", "goals.cts.json", "--output", "x.plan.json"};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(refused(words), "goals.cts.json: " + kGoals + "no method supports yet" + kGoalsEnd);
+    words[1] = "need.cts.json";
+    EXPECT_EQ(refused(words), "need.cts.json: " + kNeed + "no method supports yet" + kNeedEnd);
+  }
+  EXPECT_EQ(files().size(), before);
+}
+
+TEST_F(ChoicesCommands, CheckVerifiesPlans) {
+  EXPECT_EQ(run({"check", "goals.cts.json", "goals.plan.json"}).out,
+            "valid: cost 2, lower bound 2, gap 0.00 %, 2 agents\n");
+  EXPECT_EQ(run({"check", "need.cts.json", "need.plan.json"}).out,
+            "valid: cost 4, lower bound 4, gap 0.00 %, 2 agents\n");
+  directory_.write("paths", "Agent 0: (0,1)->(0,0)->\nAgent 1: (0,3)->(0,2)->(0,3)->(0,4)->\n");
+  EXPECT_EQ(refused({"check", "need.cts.json", "paths"}),
+            "paths: line 1: expected a plan file (JSON), since task 't' of the instance has a "
+            "choice of agents, and other formats do not tell who visits it");
+  EXPECT_EQ(run({"check", "goals.cts.json", "paths"}).exit_code, 0);
+}
+
+TEST_F(ChoicesCommands, ReplanRefuses) {
+  const std::size_t before = files().size();
+  const std::string reason = "re-planning does not support yet";
+  EXPECT_EQ(refused({"replan", "goals.cts.json", "goals.plan.json", "--at", "1"}),
+            "goals.cts.json: /agents/0/goals: " + kGoals + reason + kGoalsEnd);
+  EXPECT_EQ(refused({"replan", "need.cts.json", "need.plan.json", "--at", "1"}),
+            "need.cts.json: /tasks/0/need: " + kNeed + reason + kNeedEnd);
+  EXPECT_EQ(files().size(), before);
+}
+
+TEST_F(ChoicesCommands, NewTasksHaveNoNeed) {
+  directory_.write("fixed.cts.json", R"({"map": "m.map", "tasks": [], "agents": [
+      {"id": "a", "start": [1, 0], "goal": [0, 0]}, {"id": "b", "start": [3, 0], "goal": [4, 0]}]})");
+  directory_.write("new.json", R"({"id": "n", "cell": [0, 0], "agents": "*", "need": 1})");
+  EXPECT_EQ(
+      refused({"replan", "fixed.cts.json", "goals.plan.json", "--at", "0", "--new-task", "new.json",
+               "-o", "x.plan.json"}),
+      "new.json: /: unknown key 'need'; expected one of id, cell, agents, duration, or a name "
+      "that begins with '_', for a remark");
+}
+
+TEST_F(ChoicesCommands, ExecuteRefuses) {
+  const std::string reason = "passing orders do not support yet";
+  EXPECT_EQ(refused({"execute", "goals.cts.json", "goals.plan.json", "--order", "o.json"}),
+            "goals.cts.json: /agents/0/goals: " + kGoals + reason + kGoalsEnd);
+  EXPECT_EQ(refused({"execute", "need.cts.json", "need.plan.json", "--order", "o.json"}),
+            "need.cts.json: /tasks/0/need: " + kNeed + reason + kNeedEnd);
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "o.json"));
+}
+
+TEST_F(ChoicesCommands, CertificatesAreRefused) {
+  directory_.write("p.proof", "grove-proof 1\n");
+  EXPECT_EQ(
+      refused({"view", "goals.cts.json", "--proof", "p.proof", "--output", "x.html"}),
+      "goals.cts.json: /agents/0/goals: " + kGoals + "certificates do not support yet" + kGoalsEnd);
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "x.html"));
+}
+
+TEST_F(ChoicesCommands, ConvertKeepsOrRefusesChoices) {
+  for (const char* to : {"libmrp", "mgcbs", "mapfw", "scen"})
+    for (const std::string instance : {"goals", "need"}) {
+      const std::string text = refused({"convert", instance + ".cts.json", "out", "--to", to});
+      EXPECT_THAT(text, HasSubstr(instance == "goals" ? ": /agents/0: agent 'a' "
+                                                      : ": /tasks/0: task 't' "))
+          << to;
+      EXPECT_FALSE(std::filesystem::exists(directory_ / "out"));
+    }
+  for (const char* to : {"libmrp", "mapf-visualizer", "eecbs"})
+    EXPECT_THAT(
+        refused({"convert", "--plan", "need.plan.json", "need.cts.json", "out", "--to", to}),
+        HasSubstr("need.cts.json: /tasks/0: task 't' needs 1 of its 2 agents"))
+        << to;
+  for (const std::string instance : {"goals.cts.json", "need.cts.json"}) {
+    EXPECT_EQ(run({"convert", instance, "copy.cts.json"}).exit_code, 0);
+    EXPECT_EQ(run({"convert", "copy.cts.json", "again.cts.json"}).exit_code, 0);
+    EXPECT_EQ(file_content(directory_ / "again.cts.json"),
+              file_content(directory_ / "copy.cts.json"));
+  }
+  EXPECT_THAT(file_content(directory_ / "copy.cts.json"), HasSubstr(R"("agents":"*","need":1)"));
+}
+
+}  // namespace choices_commands_test
+}  // namespace grove::detail
