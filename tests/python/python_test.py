@@ -234,6 +234,69 @@ class Solving(unittest.TestCase):
         grove.solve(small(), start=plan, incumbent=lambda p, at: first.append(p.cost))
         self.assertEqual(first[:1], [plan.cost])
 
+    def with_choices(self):
+        """Returns an instance in which one of two robots must look, and red may end on either of two cells."""
+        return grove.Instance(
+            grove.World(ROWS),
+            [{"id": "red", "start": (0, 0), "goals": [(2, 0), (4, 2)]}, {"id": "blue", "start": (4, 0)}],
+            [{"id": "look", "cell": (1, 0), "agents": "*", "need": 1},
+             {"id": "push", "cell": (2, 0), "agents": ["blue", "red"], "duration": 2, "need": 1}])
+
+    def test_choices_are_read_and_written(self):
+        instance = self.with_choices()
+        self.assertTrue(instance.has_choices)
+        self.assertFalse(small().has_choices)
+        self.assertEqual(instance.agents[0]["goals"], [[2, 0], [4, 2]])
+        self.assertEqual((instance.tasks[0]["agents"], instance.tasks[0]["need"]), ("*", 1))
+        self.assertEqual(instance.tasks[1]["need"], 1)
+        again = grove.Instance(instance.world, instance.agents, instance.tasks)
+        self.assertEqual((again.agents, again.tasks), (instance.agents, instance.tasks))
+        with tempfile.TemporaryDirectory() as folder:
+            instance.write(Path(folder) / "x.cts.json")
+            read = grove.read_instance(Path(folder) / "x.cts.json")
+            self.assertEqual((read.agents, read.tasks), (instance.agents, instance.tasks))
+        with self.assertRaisesRegex(grove.InputError, "/agents/0/goals/1: cell .1, 1. is blocked"):
+            grove.Instance(grove.World(ROWS), [{"id": "a", "start": (0, 0), "goals": [(0, 0), (1, 1)]}])
+        with self.assertRaisesRegex(grove.InputError, "/tasks/0/need: found 2; expected 1 to 1"):
+            grove.Instance(grove.World(ROWS), [{"id": "a", "start": (0, 0)}],
+                           [{"id": "t", "cell": (0, 0), "agents": "*", "need": 2}])
+
+    def test_plans_tell_visits(self):
+        instance = self.with_choices()
+        paths = [[(0, 0), (1, 0), (2, 0)], [(4, 0)]]
+        plan = grove.Plan(instance, paths, work=[[("push", 2, 4), ("look", 1, 1)], []])
+        self.assertEqual(grove.check(plan), [])
+        self.assertEqual(plan.cost, 4)
+        self.assertEqual(plan.agents[0].tasks, ["look", "push"])
+        self.assertEqual(plan.agents[0].work, [("look", 1, 1), ("push", 2, 4)])
+        self.assertEqual(grove.visits(plan), [("red", "look", 1, 1), ("red", "push", 2, 4)])
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "x.plan.json"
+            grove.Solution(plan).write(path)
+            self.assertEqual(grove.read_plan(path, instance).plan.agents[0].work, plan.agents[0].work)
+        untold = grove.Plan(instance, paths, work=[[("push", 2, 4)], []])
+        self.assertEqual(grove.check(untold), [
+            ("/agents", "task 'look' is visited by 0 of its agents; expected at least 1")])
+        for work, field in ((None, "/work"), ([[]], "/work"), ([[], 3], "/work/1"), (["look", []], "/work/0"),
+                            ([[("look", 1)], []], "/work/0/0"), ([[(7, 1, 1)], []], "/work/0/0/0"),
+                            ([[("look", 1.5, 1)], []], "/work/0/0/1"), ([[("look", 1, "1")], []], "/work/0/0/2"),
+                            ([[], [("none", 0, 0)]], "/work/1/0/task")):
+            with self.subTest(work=work), self.assertRaises(grove.InvalidArgument) as caught:
+                grove.Plan(instance, paths, work=work)
+            self.assertEqual(caught.exception.field, field)
+
+    def test_choices_are_not_solved_yet(self):
+        instance = self.with_choices()
+        with self.assertRaisesRegex(grove.InvalidArgument, "which no method supports yet"):
+            grove.solve(instance)
+        with self.assertRaisesRegex(grove.InvalidArgument, "/agents/0/goals: .* re-planning does not support yet"):
+            grove.Session(instance)
+        session = grove.Session(small())
+        with self.assertRaisesRegex(grove.InvalidArgument, "/new_tasks/0/need: found 1; expected 2"):
+            session.change(new_tasks=[{"id": "n", "cell": (0, 2), "agents": "*", "need": 1}])
+        session.change(new_tasks=[{"id": "n", "cell": (0, 2), "agents": "*"}])
+        self.assertEqual(session.instance.tasks[-1]["agents"], ["red", "blue"])
+
     def test_session_replans_after_delays_and_changes(self):
         session = grove.Session(small())
         self.assertIsNone(session.plan)
@@ -280,7 +343,7 @@ class Errors(unittest.TestCase):
             (lambda: grove.Instance(world, [{**robot, "start": (0, float("nan"))}]), grove.InputError,
              "found no valid JSON number"),
             (lambda: grove.instance_from_arrays(world, [(0, 0)], []), grove.InvalidArgument, "goals"),
-            (lambda: grove.Plan(small(), [[(0, 0)], [(4, 0)]]), grove.InvalidArgument, "tasks that take time"),
+            (lambda: grove.Plan(small(), [[(0, 0)], [(4, 0)]]), grove.InvalidArgument, "takes time; expected the visits that the plan tells"),
             (lambda: grove.picture(small(), "x.bmp"), grove.InvalidArgument, ".svg"),
             (lambda: grove.view(), grove.InvalidArgument, "one or two"),
             (lambda: grove.view(small()).save("/nowhere/x.html"), grove.InputError, "/nowhere"),
