@@ -92,9 +92,9 @@ struct Trust {
   /// True: refuses a file that names its map or roadmap by an absolute path, or outside its own
   /// directory (for a text: outside `folder`) by `..` or a symbolic link.
   bool confine = false;
-  /// Limit, in bytes, on the memory for the map and the states of the agents on it. A file that
-  /// needs more is refused before the memory is allocated; 64 MiB are always granted. std::nullopt:
-  /// no limit.
+  /// Limit, in bytes, on the memory for the map, the states of the agents on it, and the agents of
+  /// tasks of all agents ("*"). A file that needs more is refused before the memory is allocated;
+  /// 64 MiB are always granted. std::nullopt: no limit.
   std::optional<std::size_t> memory_limit = std::nullopt;
 };
 

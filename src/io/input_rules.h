@@ -15,7 +15,8 @@ namespace grove::detail {
 struct InputRules {
   // True if a file may name only files in its own folder or below it.
   bool confined = false;
-  // Maximum memory in bytes for a map, and for the states of agents on it.
+  // Maximum memory in bytes for a map, for the states of agents on it, and for the agents of tasks
+  // of all agents.
   std::size_t memory = std::numeric_limits<std::size_t>::max();
 
   friend bool operator==(const InputRules&, const InputRules&) = default;
@@ -26,6 +27,8 @@ struct InputRules {
 inline constexpr std::size_t kBytesPerCell = 56;
 inline constexpr std::size_t kBytesPerPlace = 128;  // place of a roadmap
 inline constexpr std::size_t kBytesPerState = 80;   // state of agents that turn or work
+// An agent in the list of a task, in the instance and in the public types.
+inline constexpr std::size_t kBytesPerVisitor = 64;
 
 // Memory in bytes that is granted even if rules.memory is less.
 inline constexpr std::size_t kAlwaysGranted = std::size_t{64} << 20;

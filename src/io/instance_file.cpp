@@ -125,12 +125,16 @@ Time read_duration(const JsonValue& task) {
   return duration ? static_cast<Time>(duration->integer(0, InstanceBuilder::kMaxDuration)) : 0;
 }
 
+bool is_for_all_agents(const JsonValue& task) {
+  const JsonValue agents = task.member("agents");
+  if (!agents.json().is_string()) return false;
+  if (agents.text() != "*") agents.fail_expected("a list of ids, or \"*\" for all agents");
+  return true;
+}
+
 // Returns the ids of the agents of a task; "*" stands for those of all agents.
 std::vector<std::string> read_agents(const InstanceBuilder& builder, const JsonValue& task) {
-  const JsonValue agents = task.member("agents");
-  if (!agents.json().is_string()) return agents.texts();
-  if (agents.text() != "*") agents.fail_expected("a list of ids, or \"*\" for all agents");
-  return builder.agent_ids();
+  return is_for_all_agents(task) ? builder.agent_ids() : task.member("agents").texts();
 }
 
 std::optional<int> read_need(const JsonValue& task) {
@@ -165,9 +169,15 @@ StateMemory add_all(InstanceBuilder& builder, const JsonValue& root, const std::
     memory.add_agent(read_motion(builder, agents.element(i)));
     add_agent(builder, agents.element(i));
   }
+  std::int64_t visitors = 0;  // in the lists for which "*" stands
   for (std::size_t i = 0; i < tasks.size(); ++i) {
-    memory.add_task(read_duration(tasks.element(i)));
-    add_task(builder, tasks.element(i));
+    const JsonValue task = tasks.element(i);
+    memory.add_task(read_duration(task));
+    if (is_for_all_agents(task)) {
+      visitors += static_cast<std::int64_t>(agents.size());
+      require_memory(rules, file, task.path(), visitors, "agents of tasks", kBytesPerVisitor);
+    }
+    add_task(builder, task);
   }
   memory.require(root, file, rules);
   return memory;

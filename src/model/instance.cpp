@@ -240,6 +240,8 @@ TaskIndex InstanceBuilder::add_task(std::string id, Place place,
                         fmt::format("found {}; expected 1 to {}, the number of agents of the task",
                                     task.need, agents));
 
+  std::vector<bool> is_listed(instance_.agents_.size());
+  task.agents.reserve(agent_ids.size());
   for (std::size_t k = 0; k < agent_ids.size(); ++k) {
     const std::string field = fmt::format("agents/{}", k);
     const auto it = agent_by_id_.find(agent_ids[k]);
@@ -247,13 +249,14 @@ TaskIndex InstanceBuilder::add_task(std::string id, Place place,
       throw InstanceError(
           field, fmt::format("there is no agent '{}'; expected the id of an agent of this instance",
                              agent_ids[k]));
-    if (std::ranges::find(task.agents, it->second) != task.agents.end())
+    if (is_listed[it->second])
       throw InstanceError(
           field, fmt::format("agent '{}' is listed twice; expected each agent once", agent_ids[k]));
     if (task.need == agents && instance_.agent(it->second).tasks.size() >= kMaxTasksPerAgent)
       throw InstanceError(
           field, fmt::format("agent '{}' must visit more than {} tasks; expected at most {}",
                              agent_ids[k], kMaxTasksPerAgent, kMaxTasksPerAgent));
+    is_listed[it->second] = true;
     task.agents.push_back(it->second);
   }
 

@@ -3,6 +3,7 @@
 // tests/tools/common/hostile_files_test.py tests the same rules through the programs.
 #include "io/input_rules.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -97,6 +98,24 @@ TEST_F(InputRulesTest, StatesOfTurnsAndWorkCount) {
              R"(", "cell": [1, 0], "agents": ["a"], "duration": 65536})";
   EXPECT_THAT(refused(R"("agents": [{"id": "a", "start": [0, 0]}], "tasks": [)" + tasks + "]"),
               HasSubstr("states of agents that turn or work need about"));
+}
+
+TEST_F(InputRulesTest, TasksOfAllAgentsCount) {
+  directory_.write("m.map",
+                   "type octile\nheight 1\nwidth 2000\nmap\n" + std::string(2000, '.') + "\n");
+  std::string agents;
+  std::string tasks;
+  for (int i = 0; i < 2000; ++i) {
+    const std::string_view comma = i > 0 ? ", " : "";
+    agents += fmt::format(R"({}{{"id": "a{}", "start": [{}, 0]}})", comma, i, i);
+    tasks +=
+        fmt::format(R"({}{{"id": "t{}", "cell": [0, 0], "agents": "*", "need": 1}})", comma, i);
+  }
+  const std::string text = R"("agents": [)" + agents + R"(], "tasks": [)" + tasks + "]";
+  EXPECT_EQ(refused(text, {}), "accepted");
+  EXPECT_EQ(refused(text),
+            "i.json: /tasks/781: 1564000 agents of tasks need about 0.1 GB of memory; expected at "
+            "most 0.1 GB, the memory limit");
 }
 
 TEST_F(InputRulesTest, SmallInstancesAreReadWithAnyMemoryLimit) {
