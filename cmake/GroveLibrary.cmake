@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # The installed library, which contains the public API and the layers that it needs in one file, shared or static.
-set(grove_library_layers model execution io sequencing planning joint lagrangian conflicts search primal baselines engine api)
+set(grove_library_layers model execution io sequencing assignment planning joint lagrangian conflicts search primal baselines engine api)
 if(GROVE_WITH_CADICAL)
   list(APPEND grove_library_layers cores)
 endif()

@@ -117,7 +117,7 @@ GROVE_API std::vector<Violation> check(const Instance& instance, const Solution&
 /// of their agents must visit, because their plans are not determined by places alone.
 GROVE_API Plan plan_from_paths(const Instance& instance,
                                const std::vector<std::vector<Place>>& paths);
-/// Returns the plan with the given paths and told visits. `work` has one list per agent, in the
+/// Returns the plan with the given paths and stated visits. `work` has one list per agent, in the
 /// order of the instance. Like the overload above, but tasks may take time, and only some of their
 /// agents may have to visit them. Also throws InvalidArgument for tasks that do not exist.
 GROVE_API Plan plan_from_paths(const Instance& instance,

@@ -205,13 +205,13 @@ detail::Visits visits_of(const detail::Instance& inner,
 
 Plan plan_from_paths(const Instance& instance, const std::vector<std::vector<Place>>& paths) {
   const detail::Instance& inner = Access::instance(instance);
-  const auto told = std::ranges::find_if(inner.tasks(), &detail::Task::is_told);
-  if (told != inner.tasks().end())
+  const auto stated = std::ranges::find_if(inner.tasks(), &detail::Task::has_stated_visits);
+  if (stated != inner.tasks().end())
     throw InvalidArgument(
         "/work",
         fmt::format("task '{}' {}; expected the visits that the plan "
                     "tells",
-                    told->id, told->duration > 0 ? "takes time" : "has a choice of agents"));
+                    stated->id, stated->duration > 0 ? "takes time" : "has a choice of agents"));
   return plan_from_paths(instance, paths, std::vector<std::vector<Work>>(paths.size()));
 }
 

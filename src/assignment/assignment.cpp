@@ -29,13 +29,13 @@ Time time_of_visit(const Instance& instance, const AgentPlan& plan, TaskIndex ta
 
 void tell_visits(const Instance& instance, AgentPlan& plan) {
   Time now = 0;
-  std::vector<WorkTime> told;
+  std::vector<WorkTime> stated;
   for (const TaskIndex task : plan.sequence) {
     now = time_of_visit(instance, plan, task, now);
-    if (instance.task(task).duration == 0 && instance.task(task).is_told())
-      told.push_back({task, now, now});
+    if (instance.task(task).duration == 0 && instance.task(task).has_stated_visits())
+      stated.push_back({task, now, now});
   }
-  plan.work.insert(plan.work.end(), told.begin(), told.end());
+  plan.work.insert(plan.work.end(), stated.begin(), stated.end());
   std::ranges::stable_sort(plan.work, {}, &WorkTime::begin);
   GROVE_ASSERT(plan.work.empty() || plan.work.back().end <= plan.cost,
                "an agent finishes after its last visit");
@@ -83,7 +83,7 @@ Instance with_assignment(const Instance& instance, const Assignment& assignment)
   return std::move(builder).build();
 }
 
-Plan with_told_visits(const Instance& instance, Plan plan) {
+Plan with_stated_visits(const Instance& instance, Plan plan) {
   for (AgentPlan& agent : plan.agents) tell_visits(instance, agent);
   return plan;
 }

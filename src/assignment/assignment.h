@@ -26,7 +26,7 @@ bool is_complete(const Instance& instance, const Assignment& assignment);
 
 // Returns the instance in which the choices are fixed: an agent must visit the tasks that it visits
 // by choice, and its chosen goal is its destination. Tasks and agents keep their indices. A plan of
-// this instance is, after with_told_visits(), a plan of `instance`. (The converse does not hold
+// this instance is, after with_stated_visits(), a plan of `instance`. (The converse does not hold
 // even for this assignment: without a destination, an agent that must visit no task may rest
 // anywhere, but in the result it rests on a task that it visits.) Precondition: the assignment is
 // complete. Throws InstanceError if an agent visits more than kMaxTasksPerAgent tasks.
@@ -34,6 +34,6 @@ Instance with_assignment(const Instance& instance, const Assignment& assignment)
 
 // Converts a plan of with_assignment(instance, ...) to a plan of `instance`: states the visits of
 // tasks that need only some of their agents. Precondition: the plan is valid.
-Plan with_told_visits(const Instance& instance, Plan plan);
+Plan with_stated_visits(const Instance& instance, Plan plan);
 
 }  // namespace grove::detail

@@ -62,7 +62,7 @@ class GoalMatching {
       for (const Place place : destinations_of(agent)) places_.push_back(place);
     std::ranges::sort(places_);
     places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
-    owner_.assign(places_.size(), kNobody);
+    owner_.assign(places_.size(), kFree);
   }
 
   // Returns agents whose goals are fewer than they are; empty if there are none.
@@ -81,7 +81,7 @@ class GoalMatching {
   }
 
  private:
-  static constexpr AgentIndex kNobody = -1;
+  static constexpr AgentIndex kFree = -1;
 
   bool match(AgentIndex agent) {
     for (const Place place : destinations_of(instance_.agent(agent))) {
@@ -89,7 +89,7 @@ class GoalMatching {
           static_cast<std::size_t>(std::ranges::lower_bound(places_, place) - places_.begin());
       if (seen_[i]) continue;
       seen_[i] = true;
-      if (owner_[i] != kNobody && !match(owner_[i])) continue;
+      if (owner_[i] != kFree && !match(owner_[i])) continue;
       owner_[i] = agent;
       return true;
     }
@@ -257,7 +257,8 @@ std::optional<std::string> infeasible_choices(const Instance& instance,
     for (const Place place : destinations_of(instance.agent(agent))) places.push_back(place);
   std::ranges::sort(places);
   const auto count = std::unique(places.begin(), places.end()) - places.begin();
-  return fmt::format("agents {} have only {} goals", names(instance, agents), count);
+  return fmt::format("agents {} have only {} goal{}", names(instance, agents), count,
+                     count == 1 ? "" : "s");
 }
 
 Cost lower_bound_of_choices(const Instance& instance, const DistanceFields& distances,

@@ -2,6 +2,7 @@
 // Least costs of the legs between the stops of all agents, without other agents.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <tuple>
 #include <vector>

@@ -3,7 +3,6 @@
 
 #include <new>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include "engine/checkpoint.h"
 #include "engine/merged_observer.h"
 #include "engine/restriction.h"
+#include "model/choices.h"
 #include "planning/problem.h"
 
 namespace grove::detail {
@@ -52,7 +52,7 @@ Solution assign_and_solve(const Instance& instance, const SolveOptions& options,
   merged.note("Insertion assigns the tasks and goals; the lower bound is for all assignments.");
   const Restriction restriction{
       .instance = with_assignment(instance, *assignment),
-      .to_whole = [&](const Plan& plan) { return with_told_visits(instance, plan); },
+      .to_whole = [&](const Plan& plan) { return with_stated_visits(instance, plan); },
       .bound = bound,
       .plans = "plans with the chosen assignment",
       .has_no_plan = "no plan has the chosen assignment; plans with another assignment may exist"};
@@ -75,16 +75,13 @@ Solution solve_with_choices(const Instance& instance, const SolveOptions& option
   return solution;
 }
 
-void require_choices_fit(const SolveOptions& options) {
-  const auto refuse = [](const std::string& what) {
-    throw std::invalid_argument("agents choose tasks or goals, which " + what);
-  };
+void require_choices_fit(const Instance& instance, const SolveOptions& options) {
   if (options.policy == Policy::kFixed)
-    refuse("policy fixed does not support; expected policy free, or no policy");
-  if (options.start) refuse("a start plan does not support; expected no start plan");
+    require_no_choices(instance, "policy fixed does not support");
+  if (options.start) require_no_choices(instance, "a start plan does not support");
   if (!options.checkpoints.directory.empty() || options.resume)
-    refuse("checkpoints do not support; expected no checkpoint folder");
-  if (options.proof) refuse("proofs do not support; expected no --proof");
+    require_no_choices(instance, "checkpoints do not support");
+  if (options.proof) require_no_choices(instance, "proofs do not support");
 }
 
 }  // namespace grove::detail

@@ -13,8 +13,8 @@ namespace grove::detail {
 Solution solve_with_choices(const Instance& instance, const SolveOptions& options,
                             const Limits& limits, RunObserver& observer);
 
-// Throws std::invalid_argument with what was expected if solve_with_choices() does not support the
-// options: sequences that trees fix, published low levels, start plans, checkpoints and proofs.
-void require_choices_fit(const SolveOptions& options);
+// Throws InstanceError if the instance has choices and the options are for a part of Grove that
+// does not support them: policy fixed, start plans, checkpoints or proofs.
+void require_choices_fit(const Instance& instance, const SolveOptions& options);
 
 }  // namespace grove::detail

@@ -10,6 +10,7 @@
 
 #include "engine/adaptations.h"
 #include "engine/choices.h"
+#include "model/choices.h"
 
 namespace grove::detail {
 namespace {
@@ -100,11 +101,9 @@ void require_published_problem(Method method, const Instance& instance) {
 }
 
 void require_fit(Method method, const Instance& instance, const SolveOptions& options) {
-  if (instance.has_choices()) {
-    if (method != Method::kAuto)
-      refuse(method, "does not support tasks or goals that agents choose; expected method auto");
-    require_choices_fit(options);
-  }
+  if (method != Method::kAuto)
+    require_no_choices(instance, fmt::format("method {} does not support", name_of(method)));
+  require_choices_fit(instance, options);
   const auto ends_at_a_goal = [](const Agent& agent) { return agent.goal.has_value(); };
   if (is_adaptation(method) && std::ranges::all_of(instance.agents(), ends_at_a_goal))
     refuse(method,

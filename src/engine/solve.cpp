@@ -3,7 +3,6 @@
 #include "engine/solve.h"
 
 #include <new>
-#include <stdexcept>
 #include <string>
 
 #include "engine/checkpoint.h"
@@ -14,6 +13,7 @@
 #include "engine/run_observer.h"
 #include "engine/run_state.h"
 #include "engine/worker.h"
+#include "model/choices.h"
 #include "model/limits.h"
 #include "search/feasibility.h"
 #include "search/global_bounds.h"
@@ -138,10 +138,7 @@ Solution stopped_before_search(const Instance& instance, const SolveOptions& opt
 
 std::optional<Solution> presolve(const Problem& problem, const SolveOptions& options,
                                  const Limits& limits, RunObserver& observer) {
-  if (problem.instance.has_choices())
-    throw std::invalid_argument(
-        "agents choose tasks or goals, which only 'grove solve' supports; expected an instance "
-        "without choices");
+  require_no_choices(problem.instance, "this engine does not support");
   if (!problem.distances.complete())
     return stopped_before_search(problem.instance, options, limits, observer);
   const auto reason = presolve_infeasibility(problem);

@@ -105,19 +105,6 @@ void require_fixed_tasks(const Instance& instance, std::string_view format) {
   }
 }
 
-void require_fixed_tasks(const Instance& instance, std::string_view format) {
-  for (TaskIndex i = 0; i < instance.task_count(); ++i) {
-    const Task& task = instance.task(i);
-    if (!task.needs_all())
-      throw NotRepresentable(
-          task_field(i),
-          fmt::format("task '{}' needs {} of its {} agents, which cannot be represented in {}; "
-                      "expected tasks that all their agents must visit",
-                      task.id, task.need, task.agents.size(), format),
-          Loss::kNothing);
-  }
-}
-
 void require_work_for_all(const Instance& instance, std::string_view format) {
   for (AgentIndex i = 0; i < instance.agent_count(); ++i)
     if (instance.agent(i).is_idle())

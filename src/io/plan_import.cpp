@@ -203,7 +203,7 @@ ClaimedPaths read_visualizer_text(const std::filesystem::path& path, const Insta
 }
 
 // The agent's tasks, also those that it visits by choice, in the order of their first visits. For
-// an agent without a destination and without told visits, a task on the last place of the path
+// an agent without a destination and without stated visits, a task on the last place of the path
 // comes last.
 std::vector<TaskIndex> order_of_tasks(const Instance& instance, const Agent& agent,
                                       const Path& path, const std::vector<WorkTime>& visits) {
@@ -237,7 +237,7 @@ Time finish_of(const Path& path) {
   return static_cast<Time>(std::max<std::size_t>(until_rest(path).size(), 1) - 1);
 }
 
-void require_no_told_choice(const std::filesystem::path& path, const Instance& instance) {
+void require_no_stated_choice(const std::filesystem::path& path, const Instance& instance) {
   const auto has_choice = [](const Task& task) { return !task.needs_all(); };
   const auto found = std::ranges::find_if(instance.tasks(), has_choice);
   if (found != instance.tasks().end())
@@ -288,7 +288,8 @@ bool paths_are_places(const Instance& instance) {
 }
 
 bool plans_are_paths(const Instance& instance) {
-  return paths_are_places(instance) && std::ranges::none_of(instance.tasks(), &Task::is_told);
+  return paths_are_places(instance) &&
+         std::ranges::none_of(instance.tasks(), &Task::has_stated_visits);
 }
 
 RecountedPlan read_and_recount(const std::filesystem::path& path, const Instance& instance) {
@@ -315,7 +316,7 @@ ClaimedPlan read_plan_of_any_tool(const std::filesystem::path& path, const Insta
   if (!instance.is_on_grid())
     throw InputError(path.string(), "line 1",
                      "expected a plan file (JSON), since the instance is on a roadmap");
-  require_no_told_choice(path, instance);
+  require_no_stated_choice(path, instance);
   const std::vector<std::string_view> lines = split_lines(content);
   ClaimedPaths text;
   if (std::ranges::any_of(lines, is_schedule)) {

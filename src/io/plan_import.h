@@ -23,10 +23,10 @@ struct ClaimedPlan {
 
 // True if agents turn freely, so that a sequence of places determines a path.
 bool paths_are_places(const Instance& instance);
-// True if, in addition, no task has told visits, so that the paths determine the plan.
+// True if, in addition, no task has stated visits, so that the paths determine the plan.
 bool plans_are_paths(const Instance& instance);
 
-using Visits = std::vector<std::vector<WorkTime>>;  // by AgentIndex: the told visits
+using Visits = std::vector<std::vector<WorkTime>>;  // by AgentIndex: the stated visits
 
 // Returns the plan with these paths, by AgentIndex, and with costs and orders of tasks computed
 // from them. The plan need not be valid. Preconditions: paths_are_places(); plans_are_paths() if
@@ -61,8 +61,8 @@ struct RecountedPlan {
 };
 
 // Reads a plan as read_plan_of_any_tool() does, and recomputes the costs. If agents turn or tasks
-// have told visits, the costs remain as claimed in the file, and check() verifies them. Throws the
-// exceptions of read_plan_of_any_tool().
+// have stated visits, the costs remain as claimed in the file, and check() verifies them. Throws
+// the exceptions of read_plan_of_any_tool().
 RecountedPlan read_and_recount(const std::filesystem::path& path, const Instance& instance);
 
 }  // namespace grove::detail

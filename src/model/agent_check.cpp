@@ -205,7 +205,7 @@ class AgentCheck {
 
   void check_piece(const std::string& place, const WorkTime& work) {
     const Task& task = instance_.task(work.task);
-    if (std::ranges::count(task.agents, index_) == 0 || !is_told(task)) {
+    if (std::ranges::count(task.agents, index_) == 0 || !has_stated_visits(task)) {
       report_.add(place,
                   "task '{}' is no work of agent '{}'; expected one of its own that takes "
                   "time, or that not all its agents must visit",
@@ -276,7 +276,7 @@ class AgentCheck {
   }
 
   // Must a plan state the visits of this task?
-  static bool is_told(const Task& task) {
+  static bool has_stated_visits(const Task& task) {
     return task.duration > 0 || task.need < static_cast<int>(task.agents.size());
   }
 
@@ -284,7 +284,7 @@ class AgentCheck {
   // Returns nullopt if there is no such time.
   std::optional<Time> visit(TaskIndex index, Time begin) const {
     const Task& task = instance_.task(index);
-    if (is_told(task)) {
+    if (has_stated_visits(task)) {
       const auto work = std::ranges::find(plan_.work, index, &WorkTime::task);
       if (work == plan_.work.end() || work->end < begin) return std::nullopt;
       return work->end;
@@ -300,9 +300,9 @@ class AgentCheck {
     for (TaskIndex index : agent_.tasks) {
       const Task& task = instance_.task(index);
       if (!visit(index, 0))
-        report_.add(place_ + (is_told(task) ? "/work" : "/path"),
+        report_.add(place_ + (has_stated_visits(task) ? "/work" : "/path"),
                     "agent '{}' never {} its task '{}' on {}", agent_.id,
-                    is_told(task) ? "does" : "visits", task.id, steps_.name(task.cell));
+                    has_stated_visits(task) ? "does" : "visits", task.id, steps_.name(task.cell));
     }
   }
 
@@ -333,8 +333,8 @@ class AgentCheck {
   // repeated at the end.
   void check_last_task(const std::string& place) {
     const bool has_destination = agent_.goal || !agent_.goals.empty();
-    const auto told = [&](TaskIndex task) { return is_told(instance_.task(task)); };
-    if (has_destination || plan_.sequence.empty() || std::ranges::any_of(plan_.sequence, told))
+    const auto stated = [&](TaskIndex task) { return has_stated_visits(instance_.task(task)); };
+    if (has_destination || plan_.sequence.empty() || std::ranges::any_of(plan_.sequence, stated))
       return;
     const Task& last = instance_.task(plan_.sequence.back());
     if (poses_.back().place != last.cell)

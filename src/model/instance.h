@@ -58,7 +58,7 @@ struct Task {
   bool needs_all() const { return need == static_cast<int>(agents.size()); }
   // True if a plan states each visit explicitly (AgentPlan::work). Otherwise an agent visits the
   // task by being on its place.
-  bool is_told() const { return duration > 0 || !needs_all(); }
+  bool has_stated_visits() const { return duration > 0 || !needs_all(); }
 };
 
 // Execution of a task that an agent began before time 0: the task's id, and the number of steps

@@ -264,7 +264,7 @@ TEST(Api, PlansTellVisits) {
   EXPECT_EQ(wrong[0].message, "task 'look' is visited by 0 of its agents; expected at least 1");
 }
 
-TEST(Api, PlansFromPathsNeedTheToldVisits) {
+TEST(Api, PlansFromPathsNeedTheStatedVisits) {
   const std::vector<std::vector<Place>> paths{{Cell{0, 0}}, {Cell{4, 0}}, {Cell{4, 2}}};
   EXPECT_EQ(field_of([&] { plan_from_paths(with_choices(), paths); }), "/work");
   EXPECT_EQ(field_of([&] { plan_from_paths(with_choices(), paths, {{}, {}}); }), "/work");
@@ -274,9 +274,12 @@ TEST(Api, PlansFromPathsNeedTheToldVisits) {
             "/work/1/0/task");
 }
 
-TEST(Api, ChoicesAreNotSolvedYet) {
+TEST(Api, ChoicesAreSolvedButNotReplanned) {
   const Instance instance = with_choices();
-  EXPECT_EQ(field_of([&] { solve(instance); }), "/method");
+  const Solution solution = solve(instance);
+  ASSERT_TRUE(solution.plan);
+  EXPECT_EQ(check(instance, *solution.plan).size(), 0u);
+  EXPECT_EQ(field_of([&] { solve(instance, {.method = "mgcbs"}); }), "/method");
   EXPECT_EQ(field_of([&] { Session session(instance); }), "/agents/0/goals");
   EXPECT_EQ(field_of([&] { Session session(instance, plan_with_choices()); }), "/agents/0/goals");
   Session session(small());

@@ -14,8 +14,8 @@
 #include "model/check.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/joint_oracle.h"
-#include "tests/support/random_choices.h"
 #include "tests/support/fuzz_factor.h"
+#include "tests/support/random_choices.h"
 
 namespace grove::detail {
 namespace assignment_test {
@@ -71,7 +71,7 @@ TEST(Assignment, PlansWithAnAssignmentAreValid) {
     EXPECT_FALSE(fixed.has_choices());
     const oracle::Answer answer = oracle::solve_jointly(fixed, kStates);
     if (!answer.plan) return;
-    const Plan plan = with_told_visits(instance, *answer.plan);
+    const Plan plan = with_stated_visits(instance, *answer.plan);
     EXPECT_EQ(verdict(instance, plan), "");
     ASSERT_TRUE(truth.plan);
     EXPECT_GE(plan.cost, truth.plan->cost);
@@ -100,7 +100,8 @@ TEST(Assignment, BoundsAreTrue) {
 TEST(Assignment, TooFewGoals) {
   InstanceBuilder builder(Grid(4, 1, std::vector<bool>(4, true)));
   const auto add = [&](const std::string& id, Place start, std::vector<Place> goals) {
-    builder.add_agent({.id = id, .start = {.place = start}, .goals = std::move(goals)});
+    builder.add_agent(
+        {.id = id, .start = {.place = start}, .goal = {}, .goals = std::move(goals)});
   };
   add("a", 0, {1, 2});
   add("b", 1, {1, 2});

@@ -127,16 +127,16 @@ TEST_F(ChoicesExchange, PathFormatsContainTheChosenGoals) {
   EXPECT_TRUE(check(instance, plan.solution).empty());
 }
 
-// The errands of an agent are its visits, told or not.
-TEST_F(ChoicesExchange, PlanVizContainsToldVisits) {
+// The errands of an agent are its visits, stated or not.
+TEST_F(ChoicesExchange, PlanVizContainsStatedVisits) {
   write_planviz(directory_ / "out", instance_with_need(), solution_with_need());
   const std::string text = file_content(directory_ / "out");
   EXPECT_NE(text.find("[1,0,[0,2,0,4]]"), std::string::npos) << text;
   EXPECT_NE(text.find("\n  [1,1,1,1],\n  [3,1,1,2]]"), std::string::npos) << text;
 }
 
-// Waypoints name the task of each visit, told or not.
-TEST_F(ChoicesExchange, WaypointsContainToldVisits) {
+// Waypoints name the task of each visit, stated or not.
+TEST_F(ChoicesExchange, WaypointsContainStatedVisits) {
   write_waypoints(directory_ / "out.csv", instance_with_need(), solution_with_need(), {{1, {}}, 1});
   EXPECT_EQ(file_content(directory_ / "out.csv"),
             "robot,seconds,x,y,theta,task\n"
@@ -190,7 +190,7 @@ TEST_F(ChoicesExchange, PlanFilesTellVisits) {
   EXPECT_EQ(solution_text(instance, read(text, instance).solution), text);
 }
 
-// The orders and costs of plans are computed from paths and told visits.
+// The orders and costs of plans are computed from paths and stated visits.
 TEST_F(ChoicesExchange, PlansOfPathsAndVisits) {
   const Instance instance = instance_with_need();
   const Plan plan = plan_of_paths(instance, {{1, 0}, {3, 2, 3, 4}}, {{}, {{0, 1, 1}}});

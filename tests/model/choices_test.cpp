@@ -102,7 +102,7 @@ TEST(Choices, NeedOfAllAgentsIsNoChoice) {
     const Instance done = std::move(made).build();
     EXPECT_FALSE(done.has_choices());
     EXPECT_EQ(done.agent(0).tasks, (std::vector<TaskIndex>{0}));
-    EXPECT_FALSE(done.task(0).is_told());
+    EXPECT_FALSE(done.task(0).has_stated_visits());
   }
 }
 
@@ -172,7 +172,7 @@ TEST(Choices, MoreVisitsThanNeeded) {
             "/agents/1/work/1: agent 'b' does task 'two' a second time; expected each once");
 }
 
-TEST(Choices, CountsOnlyToldVisits) {
+TEST(Choices, CountsOnlyStatedVisits) {
   EXPECT_EQ(verdict([](Plan& plan) {
               plan.agents[kB].work.clear();
               plan.agents[kB].sequence.clear();
@@ -187,7 +187,7 @@ TEST(Choices, CountsOnlyToldVisits) {
             "/cost: the agents' costs add up to 10, but the plan claims 11");
 }
 
-TEST(Choices, ToldVisitsAreOnThePlaceOfTheTask) {
+TEST(Choices, StatedVisitsAreOnThePlaceOfTheTask) {
   EXPECT_EQ(verdict([](Plan& plan) {
               plan.agents[kB].work[0] = {1, 3, 3};
             }),
@@ -254,8 +254,8 @@ TEST(Choices, RestsAnywhereWithoutATaskThatItMustVisit) {
             "");
 }
 
-// The cost of an agent is not below the end of its last told visit.
-TEST(Choices, ToldVisitsCount) {
+// The cost of an agent is not below the end of its last stated visit.
+TEST(Choices, StatedVisitsCount) {
   EXPECT_EQ(verdict([](Plan& plan) {
               plan.agents[kC].work[0] = {0, 1, 2};
             }),

@@ -249,7 +249,7 @@ AgentPlan JointAStar::agent_plan(std::size_t agent, const std::vector<Key>& keys
     for (std::uint64_t bits = here.visited & ~before; bits != 0; bits &= bits - 1) {
       const TaskIndex task = tasks[std::countr_zero(bits)];
       result.sequence.push_back(task);
-      if (const Task& t = instance_.task(task); t.is_told())
+      if (const Task& t = instance_.task(task); t.has_stated_visits())
         result.work.push_back({task, now - t.duration, now});
     }
     before = here.visited;

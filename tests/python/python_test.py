@@ -285,10 +285,12 @@ class Solving(unittest.TestCase):
                 grove.Plan(instance, paths, work=work)
             self.assertEqual(caught.exception.field, field)
 
-    def test_choices_are_not_solved_yet(self):
+    def test_choices_are_solved_but_not_replanned(self):
         instance = self.with_choices()
-        with self.assertRaisesRegex(grove.InvalidArgument, "which no method supports yet"):
-            grove.solve(instance)
+        plan = grove.solve(instance)
+        self.assertEqual(grove.check(plan), [])
+        with self.assertRaisesRegex(grove.InvalidArgument, "which method mgcbs does not support"):
+            grove.solve(instance, method="mgcbs")
         with self.assertRaisesRegex(grove.InvalidArgument, "/agents/0/goals: .* re-planning does not support yet"):
             grove.Session(instance)
         session = grove.Session(small())

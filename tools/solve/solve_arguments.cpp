@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "io/input_error.h"
+#include "model/choices.h"
 #include "tools/common/options.h"
 #include "tools/common/parse_error.h"
 #include "tools/common/signals.h"
@@ -313,6 +314,7 @@ SolveOptions options_of_one_search(const SolveArguments& a) {
 void require_fit(const SolveArguments& a, const Instance& instance, const SolveOptions& options) {
   try {
     require_fit(method_of(a), instance, options);
+    if (!a.proof.empty()) require_no_choices(instance, "proofs do not support");
   } catch (const std::invalid_argument& error) {
     throw InputError(a.instance.name(), "", error.what());
   }

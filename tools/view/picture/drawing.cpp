@@ -79,14 +79,14 @@ void Drawing::note_visits(AgentIndex agent, const AgentPlan& plan) {
   std::set<TaskIndex> noted;
   for (const WorkTime& work : plan.work) {
     const Task& task = instance_.task(work.task);
-    if (!task.is_told() || std::ranges::count(task.agents, agent) == 0) continue;
+    if (!task.has_stated_visits() || std::ranges::count(task.agents, agent) == 0) continue;
     if (!noted.insert(work.task).second) continue;
     Time& begin = begins_[static_cast<std::size_t>(work.task)];
     visits_[static_cast<std::size_t>(work.task)].push_back(work.end);
     begin = std::min(begin, work.begin);
   }
   for (const TaskIndex task : instance_.agent(agent).tasks) {
-    if (instance_.task(task).is_told()) continue;
+    if (instance_.task(task).has_stated_visits()) continue;
     auto& visits = visits_[static_cast<std::size_t>(task)];
     Time& begin = begins_[static_cast<std::size_t>(task)];
     const auto is_there = [&](State s) {

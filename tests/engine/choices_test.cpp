@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Compares runs on tiny instances with choices with the oracle.
+#include "engine/choices.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "engine/method.h"
+#include "model/check.h"
+#include "tests/fuzz/random_instance.h"
+#include "tests/oracle/joint_oracle.h"
+#include "tests/support/choices.h"
+#include "tests/support/fuzz_factor.h"
+#include "tests/support/random_choices.h"
+
+namespace grove::detail {
+namespace choices_test {
+
+constexpr std::size_t kStates = 200'000;
+
+TEST(SolveWithChoices, AgreesWithTheOracle) {
+  int plans = 0;
+  int optimal = 0;
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(200));
+       ++seed) {
+    SCOPED_TRACE(seed);
+    const Instance instance = with_random_choices(fuzz::any_instance(seed).build(), seed);
+    if (!instance.has_choices()) continue;
+    const oracle::Answer truth = oracle::solve_jointly(instance, kStates);
+    if (!truth.plan) continue;  // the search might not end
+    SolveOptions options;
+    options.seed = seed;
+    const Solution solution = solve_by(Method::kAuto, false, instance, options, Limits());
+    EXPECT_NE(solution.status, Status::kInfeasible);
+    EXPECT_LE(solution.lower_bound, truth.plan->cost);
+    if (!solution.plan) continue;
+    EXPECT_EQ(check(instance, solution).size(), 0u);
+    EXPECT_GE(solution.plan->cost, truth.plan->cost);
+    ++plans;
+    optimal += solution.status == Status::kOptimal ? 1 : 0;
+  }
+  EXPECT_GT(plans, 50);
+  EXPECT_GT(4 * optimal, plans);
+}
+
+TEST(SolveWithChoices, TooFewGoalsAreInfeasible) {
+  InstanceBuilder builder(Grid(3, 1, std::vector<bool>(3, true)));
+  for (const Place start : {0, 2})
+    builder.add_agent({.id = "a" + std::to_string(start),
+                       .start = {.place = start},
+                       .goal = {},
+                       .goals = std::vector<Place>{1}});
+  const Instance instance = std::move(builder).build();
+  const Solution solution = solve_by(Method::kAuto, false, instance, {}, Limits());
+  EXPECT_EQ(solution.status, Status::kInfeasible);
+  EXPECT_EQ(solution.stats.texts.at("reason"), "agents 'a0', 'a2' have only 1 goal");
+}
+
+// The engines themselves refuse choices, so no program can drop them.
+TEST(SolveWithChoices, EnginesRefuseChoices) {
+  EXPECT_THROW(solve(testing::instance_with_goals(), {}, Limits()), InstanceError);
+  EXPECT_THROW(solve(testing::instance_with_need(), {}, Limits()), InstanceError);
+}
+
+}  // namespace choices_test
+}  // namespace grove::detail
