@@ -27,7 +27,7 @@ Time time_of_visit(const Instance& instance, const AgentPlan& plan, TaskIndex ta
   return time;
 }
 
-void tell_visits(const Instance& instance, AgentPlan& plan) {
+void state_visits(const Instance& instance, AgentPlan& plan) {
   Time now = 0;
   std::vector<WorkTime> stated;
   for (const TaskIndex task : plan.sequence) {
@@ -39,6 +39,20 @@ void tell_visits(const Instance& instance, AgentPlan& plan) {
   std::ranges::stable_sort(plan.work, {}, &WorkTime::begin);
   GROVE_ASSERT(plan.work.empty() || plan.work.back().end <= plan.cost,
                "an agent finishes after its last visit");
+}
+
+// In with_assignment(), an agent that no task lists any more may rest within a turn. Completing the
+// turn does not change its place.
+void complete_turn(const Instance& instance, AgentIndex index, AgentPlan& plan) {
+  const Agent& agent = instance.agent(index);
+  if (!agent.is_idle() || agent.options.empty()) return;
+  for (Pose pose = instance.pose_of(plan.path.back()); pose.steps > 0;) {
+    ++pose.steps;
+    if (pose.steps == agent.motion.turn_steps)
+      pose = {.place = pose.place, .heading = pose.to, .to = pose.to};
+    plan.path.push_back(instance.state_of(index, pose));
+    ++plan.cost;
+  }
 }
 
 }  // namespace
@@ -84,7 +98,13 @@ Instance with_assignment(const Instance& instance, const Assignment& assignment)
 }
 
 Plan with_stated_visits(const Instance& instance, Plan plan) {
-  for (AgentPlan& agent : plan.agents) tell_visits(instance, agent);
+  plan.cost = 0;
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+    AgentPlan& agent = plan.agents[i];
+    state_visits(instance, agent);
+    complete_turn(instance, i, agent);
+    plan.cost += agent.cost;
+  }
   return plan;
 }
 

@@ -33,7 +33,8 @@ bool is_complete(const Instance& instance, const Assignment& assignment);
 Instance with_assignment(const Instance& instance, const Assignment& assignment);
 
 // Converts a plan of with_assignment(instance, ...) to a plan of `instance`: states the visits of
-// tasks that need only some of their agents. Precondition: the plan is valid.
+// tasks that need only some of their agents, and completes a turn within which an agent with such
+// tasks rests. Precondition: the plan is valid.
 Plan with_stated_visits(const Instance& instance, Plan plan);
 
 }  // namespace grove::detail
