@@ -3,6 +3,7 @@
 // with a choice of goals come to rest.
 #pragma once
 
+#include <compare>
 #include <optional>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace grove::detail {
 struct AgentChoice {
   std::vector<TaskIndex> visits;   // optional tasks that it visits, in ascending order
   std::optional<Place> goal = {};  // its destination, one of Agent::goals; nullopt: no choice
-  friend bool operator==(const AgentChoice&, const AgentChoice&) = default;
+  friend auto operator<=>(const AgentChoice&, const AgentChoice&) = default;
 };
 
 using Assignment = std::vector<AgentChoice>;  // by AgentIndex

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // An iteration removes a random optional visit and those of the nearest tasks, and inserts them
 // again one by one: in random order, each at its cheapest position in the routes of all its agents.
-// Routes of equal cost are accepted. Only the changed routes are restored after a failure.
+// Routes of equal cost are accepted. For variants, costs of insertions are random to some extent,
+// and all routes below a limit are accepted. Only the changed routes are restored after a failure.
 #include "assignment/assignment_lns.h"
 
 #include <algorithm>
@@ -14,14 +15,23 @@
 namespace grove::detail {
 namespace {
 
+constexpr Time kMaxRandomCost = 4;       // steps, added to the costs of insertions for variants
 constexpr int kMaxRemoved = 10;          // visits per iteration
 constexpr std::size_t kNeighbours = 24;  // nearest tasks of a task, of which some are removed
 constexpr std::int64_t kIterationsPerPoll = 64;
 
 class AssignmentLns {
  public:
-  AssignmentLns(Routes& routes, const RouteCosts& costs, std::uint64_t seed)
-      : routes_(routes), instance_(costs.instance()), random_(seed), visitors_(task_count()) {
+  // `cost_limit`: routes of less than this total cost are accepted; nullopt: only routes that cost
+  // no more than the current ones.
+  AssignmentLns(Routes& routes, const RouteCosts& costs, std::optional<Cost> cost_limit,
+                std::uint64_t seed)
+      : routes_(routes),
+        instance_(costs.instance()),
+        random_(seed),
+        cost_limit_(cost_limit),
+        cost_(routes.cost()),
+        visitors_(task_count()) {
     for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent)
       for (const TaskIndex task : routes.stops(agent))
         if (is_free(agent, task)) visitors_[task].push_back(agent);
@@ -45,7 +55,8 @@ class AssignmentLns {
       if (!cost) return restore();
       change += *cost;
     }
-    if (change > 0) restore();
+    if (cost_limit_ ? cost_ + change >= *cost_limit_ : change > 0) return restore();
+    cost_ += change;
   }
 
  private:
@@ -101,12 +112,15 @@ class AssignmentLns {
   std::optional<Time> insert(TaskIndex task) {
     Insertion best;
     AgentIndex best_agent = -1;
+    Time least = kNever;
     for (const AgentIndex agent : instance_.task(task).agents) {
       const Insertion here = routes_.cheapest(agent, task);
       ++tried_;
-      if (here.cost >= best.cost) continue;
+      const Time noisy = cost_limit_ ? here.cost + random_.below(kMaxRandomCost + 1) : here.cost;
+      if (here.cost >= kNever || noisy >= least) continue;
       best = here;
       best_agent = agent;
+      least = noisy;
     }
     if (best_agent < 0) return std::nullopt;
     save(best_agent);
@@ -132,6 +146,8 @@ class AssignmentLns {
   Routes& routes_;
   const Instance& instance_;
   Random random_;
+  const std::optional<Cost> cost_limit_;
+  Cost cost_;                                       // of the routes
   std::vector<TaskIndex> tasks_;                    // with a visit that may be removed
   std::vector<std::vector<AgentIndex>> visitors_;   // by task: agents whose visit may be removed
   std::vector<std::vector<TaskIndex>> neighbours_;  // by task, the nearest first
@@ -140,16 +156,24 @@ class AssignmentLns {
   std::int64_t tried_ = 0;
 };
 
-}  // namespace
-
-void improve_routes(Routes& routes, const RouteCosts& costs, std::int64_t insertions,
-                    std::uint64_t seed, const Limits& limits) {
-  AssignmentLns search(routes, costs, seed);
+void run(AssignmentLns search, std::int64_t insertions, const Limits& limits) {
   if (!search.has_visits()) return;
   for (std::int64_t i = 0; search.tried() < insertions; ++i) {
     if (i % kIterationsPerPoll == 0 && limits.stop_requested()) return;
     search.iterate();
   }
+}
+
+}  // namespace
+
+void improve_routes(Routes& routes, const RouteCosts& costs, std::int64_t insertions,
+                    std::uint64_t seed, const Limits& limits) {
+  run(AssignmentLns(routes, costs, std::nullopt, seed), insertions, limits);
+}
+
+void vary_routes(Routes& routes, const RouteCosts& costs, Cost cost_limit, std::int64_t insertions,
+                 std::uint64_t seed, const Limits& limits) {
+  run(AssignmentLns(routes, costs, cost_limit, seed), insertions, limits);
 }
 
 }  // namespace grove::detail

@@ -16,4 +16,8 @@ namespace grove::detail {
 void improve_routes(Routes& routes, const RouteCosts& costs, std::int64_t insertions,
                     std::uint64_t seed, const Limits& limits);
 
+// The same, but accepts all routes that cost less than `cost_limit` in total.
+void vary_routes(Routes& routes, const RouteCosts& costs, Cost cost_limit, std::int64_t insertions,
+                 std::uint64_t seed, const Limits& limits);
+
 }  // namespace grove::detail

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "model/random.h"
 #include "sequencing/assignment.h"
 
 namespace grove::detail {
@@ -55,7 +56,8 @@ Time Routes::remove(AgentIndex agent, TaskIndex task) {
   return before - leg(agent, at);
 }
 
-bool Routes::choose_goals() {
+bool Routes::choose_goals(Time noise, std::uint64_t seed) {
+  Random random(seed);
   std::vector<Place> places;
   for (const Agent& agent : instance_->agents()) {
     places.insert(places.end(), agent.goals.begin(), agent.goals.end());
@@ -72,7 +74,7 @@ bool Routes::choose_goals() {
     cost.emplace_back(places.size(), kForbidden);
     const auto allow = [&](Place goal, Time leg) {
       const auto column = std::ranges::lower_bound(places, goal) - places.begin();
-      cost.back()[static_cast<std::size_t>(column)] = leg;
+      cost.back()[static_cast<std::size_t>(column)] = leg + random.below(noise + 1);
     };
     if (agent.goal) allow(*agent.goal, 0);
     for (const Place goal : agent.goals)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -40,9 +41,11 @@ class Routes {
   // Returns by how much the cost of the route falls. Precondition: the agent visits the task.
   Time remove(AgentIndex agent, TaskIndex task);
 
-  // Chooses the goals of all agents with a choice, so that the legs to the goals cost least.
-  // Returns false if there are too few goals.
-  bool choose_goals();
+  // Chooses the goals of all agents with a choice, so that the legs to the goals cost least, where
+  // a random number of steps up to `noise` is added to each. Returns false if there are too few
+  // goals.
+  bool choose_goals() { return choose_goals(0, 0); }
+  bool choose_goals(Time noise, std::uint64_t seed);
 
  private:
   std::size_t first_position(AgentIndex agent, TaskIndex task) const;

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "engine/choices.h"
 
+#include <fmt/format.h>
+
 #include <new>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "assignment/assignment.h"
+#include "assignment/assignment_search.h"
 #include "assignment/choice_bounds.h"
-#include "assignment/insertion.h"
+#include "engine/adaptations.h"
 #include "engine/checkpoint.h"
 #include "engine/merged_observer.h"
 #include "engine/restriction.h"
@@ -17,6 +20,11 @@
 
 namespace grove::detail {
 namespace {
+
+// Of the time that is left: for the search of the first assignment, and of each other one.
+constexpr double kFirstShare = 0.5;
+constexpr double kOtherShare = 0.125;
+constexpr int kMaxFailures = 200;  // assignments in succession that lead to no cheaper plan
 
 Solution infeasible(const SolveOptions& options, const std::string& reason, RunObserver& observer) {
   observer.on_infeasible(reason);
@@ -39,6 +47,63 @@ Solution without_assignment(const SolveOptions& options, const Limits& limits, C
   return solution;
 }
 
+Restriction restriction(const Instance& instance, const Assignment& assignment, Cost bound) {
+  return {.instance = with_assignment(instance, assignment),
+          .to_whole = [&](const Plan& plan) { return with_stated_visits(instance, plan); },
+          .bound = bound,
+          .plans = "plans with the chosen assignment",
+          .has_no_plan = "no plan has the chosen assignment; plans with another may exist"};
+}
+
+// The limits of one search. Deterministic runs do not divide the time.
+Limits part_of(const Limits& limits, const SolveOptions& options, double share) {
+  const double seconds = limits.seconds_left();
+  return {limits, options.deterministic ? seconds : share * seconds};
+}
+
+bool is_final(const Solution& solution) {
+  return solution.status == Status::kOptimal || solution.status == Status::kBounded;
+}
+
+// Searches one assignment after the other, as long as a further one can lead to a cheaper plan.
+class ChoicesRun {
+ public:
+  ChoicesRun(const Instance& instance, const SolveOptions& options, Cost bound,
+             const Limits& limits, MergedObserver& merged)
+      : instance_(instance), options_(options), bound_(bound), limits_(limits), merged_(merged) {}
+
+  Solution run(AssignmentSearch& assignments, const Assignment& first) {
+    Solution best = solve_one(first, kFirstShare);
+    for (int failures = 0; failures < kMaxFailures && !is_final(best) && !limits_.stop_requested();
+         ++failures) {
+      const Cost cost = best.plan ? best.plan->cost : kInfiniteCost;
+      const auto other = assignments.next(cost, limits_);
+      if (!other) break;
+      best = merged_result(best, solve_one(*other, kOtherShare));
+      if (best.plan && best.plan->cost < cost) failures = 0;
+    }
+    if (!limits_.stop_requested()) best.stats.texts.erase("stopped_by");
+    if (!is_final(best))
+      best.stats.texts["remark"] = fmt::format(
+          "{} assignments were searched; the lower bound is for all assignments", searched_);
+    return best;
+  }
+
+ private:
+  Solution solve_one(const Assignment& assignment, double share) {
+    ++searched_;
+    const Limits part = part_of(limits_, options_, share);
+    return solve_restriction(restriction(instance_, assignment, bound_), options_, part, merged_);
+  }
+
+  const Instance& instance_;
+  const SolveOptions& options_;
+  const Cost bound_;
+  const Limits& limits_;
+  MergedObserver& merged_;
+  int searched_ = 0;
+};
+
 Solution assign_and_solve(const Instance& instance, const SolveOptions& options,
                           const Limits& limits, RunObserver& observer, MergedObserver& merged) {
   const DistanceFields distances(instance, limits, options.threads);
@@ -46,17 +111,11 @@ Solution assign_and_solve(const Instance& instance, const SolveOptions& options,
   if (const auto reason = infeasible_choices(instance, distances))
     return infeasible(options, *reason, observer);
   const Cost bound = lower_bound_of_choices(instance, distances, limits);
-  const auto assignment = assignment_by_insertion(instance, distances, options.seed, limits);
-  if (!assignment) return without_assignment(options, limits, bound);
-
-  merged.note("Insertion assigns the tasks and goals; the lower bound is for all assignments.");
-  const Restriction restriction{
-      .instance = with_assignment(instance, *assignment),
-      .to_whole = [&](const Plan& plan) { return with_stated_visits(instance, plan); },
-      .bound = bound,
-      .plans = "plans with the chosen assignment",
-      .has_no_plan = "no plan has the chosen assignment; plans with another assignment may exist"};
-  return solve_restriction(restriction, options, limits, merged);
+  AssignmentSearch assignments(instance, distances, options.seed);
+  const auto first = assignments.first(limits);
+  if (!first) return without_assignment(options, limits, bound);
+  merged.note("Assigns the tasks and goals by insertion; the lower bound is for all assignments.");
+  return ChoicesRun(instance, options, bound, limits, merged).run(assignments, *first);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 namespace grove::detail {
 
 // Solves an instance with choices, with the contract of solve(): chooses an assignment by insertion
-// (assignment/insertion.h) and searches the instance with this assignment. The lower bound holds
-// for all assignments (assignment/choice_bounds.h). Precondition: require_choices_fit().
+// (assignment/assignment_search.h) and searches the instance with this assignment. The lower bound
+// holds for all assignments (assignment/choice_bounds.h). Precondition: require_choices_fit().
 Solution solve_with_choices(const Instance& instance, const SolveOptions& options,
                             const Limits& limits, RunObserver& observer);
 

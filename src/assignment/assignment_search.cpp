@@ -10,14 +10,18 @@
 // its cheapest: if that agent's route changes, this visit loses most. For a task that needs several
 // agents, its visits are inserted one after the other.
 //
+// *Variants.* Large neighbourhood search that accepts all routes below the limit, from the best
+// routes, and goals that minimise the legs to them after a random change of each by a few steps.
+//
 // *Effort.* After an insertion only the costs for the agent of the changed route are recomputed:
 // O(visits * tasks * stops of a route), and O(visits * tasks) to compare the regrets if few visits
 // have the changed agent among their two cheapest.
-#include "assignment/insertion.h"
+#include "assignment/assignment_search.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -31,6 +35,8 @@ namespace {
 constexpr int kPasses = 3;  // of large neighbourhood search and choice of goals
 // Insertions into a route that are tried per pass: per task and agent, and at most (about 0.1 s).
 constexpr std::int64_t kInsertionsEach = 1000;
+constexpr int kAttempts = 10;  // to find another assignment
+constexpr Time kMaxNoise = 4;  // steps
 constexpr std::int64_t kMaxInsertions = 1'000'000;
 
 // Inserts visits in the order of regret.
@@ -104,30 +110,52 @@ class RegretInsertion {
   std::vector<Open> open_;
 };
 
-class Builder {
- public:
-  Builder(const Instance& instance, const RouteCosts& costs)
-      : instance_(instance), costs_(costs), routes_(costs), insertion_(instance, routes_) {}
+}  // namespace
 
-  std::optional<Assignment> run(std::uint64_t seed, const Limits& limits) {
-    insert_begun();
-    if (!insert_required() || !routes_.choose_goals() || !insertion_.run(limits))
+class AssignmentSearch::Builder {
+ public:
+  Builder(const Instance& instance, const DistanceFields& distances, std::uint64_t seed)
+      : instance_(instance), costs_(instance, distances), routes_(costs_), seed_(seed) {}
+
+  std::optional<Assignment> first(const Limits& limits) {
+    RegretInsertion insertion(instance_, routes_);
+    insert_begun(insertion);
+    if (!insert_required() || !routes_.choose_goals() || !insertion.run(limits))
       return std::nullopt;
     for (int pass = 0; pass < kPasses && !limits.stop_requested(); ++pass) {
-      improve_routes(routes_, costs_, insertions(), seed + static_cast<std::uint64_t>(pass),
-                     limits);
+      improve_routes(routes_, costs_, insertions(), seed_++, limits);
       routes_.choose_goals();
     }
-    return assignment();
+    return remembered(assignment(routes_));
+  }
+
+  std::optional<Assignment> next(Cost cost_limit, const Limits& limits) {
+    cost_limit = std::min(cost_limit, routes_.cost() + routes_.cost() / 10 + kMaxNoise);
+    for (int attempt = 0; attempt < kAttempts && !limits.stop_requested(); ++attempt) {
+      Routes routes = routes_;
+      vary_routes(routes, costs_, cost_limit, insertions() / kAttempts, seed_++, limits);
+      const Time noise = static_cast<Time>(seed_ % (kMaxNoise + 1));
+      if (!routes.choose_goals(noise, seed_) || routes.cost() >= cost_limit) continue;
+      Assignment found = assignment(routes);
+      if (known_.contains(found)) continue;
+      if (routes.cost() < routes_.cost()) routes_ = routes;
+      return remembered(std::move(found));
+    }
+    return std::nullopt;
   }
 
  private:
-  void insert_begun() {
+  Assignment remembered(Assignment found) {
+    known_.insert(found);
+    return found;
+  }
+
+  void insert_begun(RegretInsertion& insertion) {
     for (AgentIndex i = 0; i < instance_.agent_count(); ++i) {
       const State start = instance_.agent(i).start;
       if (!instance_.world().is_working(start)) continue;
       const TaskIndex task = instance_.world().work(start).task;
-      if (!instance_.task(task).needs_all()) insertion_.count_visit(task);
+      if (!instance_.task(task).needs_all()) insertion.count_visit(task);
       routes_.insert(i, task, 0);
     }
   }
@@ -142,13 +170,13 @@ class Builder {
     return true;
   }
 
-  Assignment assignment() const {
+  Assignment assignment(const Routes& routes) const {
     Assignment assignment(instance_.agents().size());
     for (AgentIndex i = 0; i < instance_.agent_count(); ++i) {
-      for (const TaskIndex task : routes_.stops(i))
+      for (const TaskIndex task : routes.stops(i))
         if (!instance_.task(task).needs_all()) assignment[i].visits.push_back(task);
       std::ranges::sort(assignment[i].visits);
-      if (!instance_.agent(i).goals.empty()) assignment[i].goal = routes_.goal(i);
+      if (!instance_.agent(i).goals.empty()) assignment[i].goal = routes.goal(i);
     }
     return assignment;
   }
@@ -159,18 +187,23 @@ class Builder {
   }
 
   const Instance& instance_;
-  const RouteCosts& costs_;
-  Routes routes_;
-  RegretInsertion insertion_;
+  const RouteCosts costs_;
+  Routes routes_;  // the best so far
+  std::uint64_t seed_;
+  std::set<Assignment> known_;  // returned so far
 };
 
-}  // namespace
+AssignmentSearch::AssignmentSearch(const Instance& instance, const DistanceFields& distances,
+                                   std::uint64_t seed)
+    : builder_(std::make_unique<Builder>(instance, distances, seed)) {}
+AssignmentSearch::~AssignmentSearch() = default;
 
-std::optional<Assignment> assignment_by_insertion(const Instance& instance,
-                                                  const DistanceFields& distances,
-                                                  std::uint64_t seed, const Limits& limits) {
-  const RouteCosts costs(instance, distances);
-  return Builder(instance, costs).run(seed, limits);
+std::optional<Assignment> AssignmentSearch::first(const Limits& limits) {
+  return builder_->first(limits);
+}
+
+std::optional<Assignment> AssignmentSearch::next(Cost cost_limit, const Limits& limits) {
+  return builder_->next(cost_limit, limits);
 }
 
 }  // namespace grove::detail

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Heuristic search for assignments of low cost, without a bound.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "assignment/assignment.h"
+#include "model/distance_field.h"
+#include "model/instance.h"
+#include "model/limits.h"
+#include "model/omega.h"
+
+namespace grove::detail {
+
+// Finds complete assignments: first one by regret insertion (Potvin and Rousseau 1993) into the
+// agents' routes, without conflicts between agents, followed by large neighbourhood search
+// (assignment_lns.h) and another choice of goals; then variants of it. Repeatable. One thread at a
+// time.
+class AssignmentSearch {
+ public:
+  // Both must outlive this object. `distances` must be complete.
+  AssignmentSearch(const Instance& instance, const DistanceFields& distances, std::uint64_t seed);
+  ~AssignmentSearch();
+
+  // Returns the first assignment, or nullopt if it finds none, which proves nothing, or if a limit
+  // was reached.
+  std::optional<Assignment> first(const Limits& limits);
+  // Returns a further assignment whose routes cost less than `cost_limit`, and which was not
+  // returned before. Returns nullopt if it finds none. Call first() before.
+  std::optional<Assignment> next(Cost cost_limit, const Limits& limits);
+
+ private:
+  class Builder;
+  std::unique_ptr<Builder> builder_;
+};
+
+}  // namespace grove::detail
