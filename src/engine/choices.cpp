@@ -61,8 +61,8 @@ Limits part_of(const Limits& limits, const SolveOptions& options, double share) 
   return {limits, options.deterministic ? seconds : share * seconds};
 }
 
-bool is_final(const Solution& solution) {
-  return solution.status == Status::kOptimal || solution.status == Status::kBounded;
+bool is_within(const Solution& solution, Omega omega) {
+  return solution.plan && omega.accepts(solution.plan->cost, solution.lower_bound);
 }
 
 // Searches one assignment after the other, as long as a further one can lead to a cheaper plan.
@@ -74,7 +74,8 @@ class ChoicesRun {
 
   Solution run(AssignmentSearch& assignments, const Assignment& first) {
     Solution best = solve_one(first, kFirstShare);
-    for (int failures = 0; failures < kMaxFailures && !is_final(best) && !limits_.stop_requested();
+    for (int failures = 0;
+         failures < kMaxFailures && !limits_.stop_requested() && !is_within(best, options_.omega);
          ++failures) {
       const Cost cost = best.plan ? best.plan->cost : kInfiniteCost;
       const auto other = assignments.next(cost, limits_);
@@ -83,9 +84,9 @@ class ChoicesRun {
       if (best.plan && best.plan->cost < cost) failures = 0;
     }
     if (!limits_.stop_requested()) best.stats.texts.erase("stopped_by");
-    if (!is_final(best))
+    if (!is_within(best, options_.omega))
       best.stats.texts["remark"] = fmt::format(
-          "{} assignments were searched; the lower bound is for all assignments", searched_);
+          "assignments searched: {}; the lower bound is for all assignments", searched_);
     return best;
   }
 
