@@ -100,7 +100,7 @@ class AssignmentLns {
     }
     return gain;
   }
-  Time remove(TaskIndex task) {
+  Cost remove(TaskIndex task) {
     std::vector<AgentIndex>& visitors = visitors_[task];
     const std::size_t which = random_.below(visitors.size());
     const AgentIndex agent = visitors[which];
@@ -116,8 +116,9 @@ class AssignmentLns {
     for (const AgentIndex agent : instance_.task(task).agents) {
       const Insertion here = routes_.cheapest(agent, task);
       ++tried_;
+      if (here.cost >= kNever) continue;
       const Time noisy = cost_limit_ ? here.cost + random_.below(kMaxRandomCost + 1) : here.cost;
-      if (here.cost >= kNever || noisy >= least) continue;
+      if (noisy >= least) continue;
       best = here;
       best_agent = agent;
       least = noisy;

@@ -167,16 +167,16 @@ class Bound {
   }
   // A lower bound on the cost of the required tasks if the agent ends on `goal`.
   Cost cost_to_end_on(AgentIndex index, Place goal) const {
-    Time cost = costs_.start_to_goal(index, goal);
+    Cost cost = costs_.start_to_goal(index, goal);
     for (const TaskIndex task : instance_.agent(index).tasks)
-      cost = std::max(cost, std::min(kNever, costs_.from_start(index, task) +
-                                                 costs_.to_goal(index, task, goal)));
+      cost =
+          std::max(cost, Cost{costs_.from_start(index, task)} + costs_.to_goal(index, task, goal));
     return cost;
   }
 
   // The sum of the least detours of as many agents as the task needs.
   Cost sum_of_detours(TaskIndex task) {
-    std::vector<Time> detours;
+    std::vector<Cost> detours;
     for (const AgentIndex agent : instance_.task(task).agents)
       if (can_visit(instance_, distances_, agent, task)) detours.push_back(detour(agent, task));
     std::ranges::sort(detours);
@@ -184,11 +184,11 @@ class Bound {
     return std::accumulate(detours.begin(), detours.begin() + static_cast<std::ptrdiff_t>(need),
                            Cost{0});
   }
-  Time detour(AgentIndex index, TaskIndex task) {
+  Cost detour(AgentIndex index, TaskIndex task) {
     const Agent& agent = instance_.agent(index);
     if (agent.kind > 0 || instance_.world().is_working(agent.start)) return 0;
-    const Time first = costs_.from_start(index, task);
-    Time least = detour_between_stops(index, task);
+    const Cost first = costs_.from_start(index, task);
+    Cost least = detour_between_stops(index, task);
     if (!agent.has_destination()) least = std::min({least, first, least_leg_to(index, task)});
     for (TaskIndex next = 0; next < instance_.task_count() && least > 0; ++next)
       if (next != task)
@@ -197,17 +197,17 @@ class Bound {
     for (const Place goal : destinations_of(agent))
       least = std::min(
           least, first + costs_.to_goal(index, task, goal) - costs_.start_to_goal(index, goal));
-    return std::max(least, 0);
+    return std::max(least, Cost{0});
   }
 
   // The least detour from any task to any task or goal, for agents that turn freely.
-  Time detour_between_stops(AgentIndex agent, TaskIndex task) {
-    Time& least = between_stops_[static_cast<std::size_t>(task)];
+  Cost detour_between_stops(AgentIndex agent, TaskIndex task) {
+    Cost& least = between_stops_[static_cast<std::size_t>(task)];
     if (least != kUnknown) return least;
     least = kNever;
     for (TaskIndex before = 0; before < instance_.task_count() && least > 0; ++before) {
       if (before == task) continue;
-      const Time leg = costs_.between(agent, before, task);
+      const Cost leg = costs_.between(agent, before, task);
       for (TaskIndex next = 0; next < instance_.task_count(); ++next)
         if (next != task && next != before)
           least = std::min(
@@ -216,23 +216,23 @@ class Bound {
         least = std::min(
             least, leg + costs_.to_goal(agent, task, goal) - costs_.to_goal(agent, before, goal));
     }
-    return least = std::max(least, 0);
+    return least = std::max(least, Cost{0});
   }
-  Time least_leg_to(AgentIndex agent, TaskIndex task) const {
-    Time least = kNever;
+  Cost least_leg_to(AgentIndex agent, TaskIndex task) const {
+    Cost least = kNever;
     for (TaskIndex before = 0; before < instance_.task_count(); ++before)
-      if (before != task) least = std::min(least, costs_.between(agent, before, task));
+      if (before != task) least = std::min(least, Cost{costs_.between(agent, before, task)});
     return least;
   }
 
-  static constexpr Time kUnknown = -1;
+  static constexpr Cost kUnknown = -1;
 
   const Instance& instance_;
   const DistanceFields& distances_;
   const Limits& limits_;
   const RouteCosts costs_;
   std::vector<Place> goals_;         // of agents that turn freely
-  std::vector<Time> between_stops_;  // by task: detour_between_stops()
+  std::vector<Cost> between_stops_;  // by task: detour_between_stops()
 };
 
 }  // namespace

@@ -47,11 +47,11 @@ void Routes::insert(AgentIndex agent, TaskIndex task, std::size_t position) {
   stops_[agent].insert(stops_[agent].begin() + static_cast<std::ptrdiff_t>(position), task);
 }
 
-Time Routes::remove(AgentIndex agent, TaskIndex task) {
+Cost Routes::remove(AgentIndex agent, TaskIndex task) {
   std::vector<TaskIndex>& stops = stops_[agent];
   const auto found = std::ranges::find(stops, task);
   const auto at = static_cast<std::size_t>(found - stops.begin());
-  const Time before = leg(agent, at) + leg(agent, at + 1);
+  const Cost before = Cost{leg(agent, at)} + leg(agent, at + 1);
   stops.erase(found);
   return before - leg(agent, at);
 }

@@ -39,7 +39,7 @@ class Routes {
     stops_[agent] = std::move(stops);
   }
   // Returns by how much the cost of the route falls. Precondition: the agent visits the task.
-  Time remove(AgentIndex agent, TaskIndex task);
+  Cost remove(AgentIndex agent, TaskIndex task);
 
   // Chooses the goals of all agents with a choice, so that the legs to the goals cost least, where
   // a random number of steps up to `noise` is added to each. Returns false if there are too few
