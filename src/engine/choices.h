@@ -7,9 +7,10 @@
 
 namespace grove::detail {
 
-// Solves an instance with choices, with the contract of solve(): chooses an assignment by insertion
-// (assignment/assignment_search.h) and searches the instance with this assignment. The lower bound
-// holds for all assignments (assignment/choice_bounds.h). Precondition: require_choices_fit().
+// Solves an instance with choices, with the contract of solve(): searches one assignment after the
+// other (assignment/assignment_search.h), each as an instance without choices. The lower bound holds
+// for all assignments (assignment/choice_bounds.h). Ends without a proof when no further assignment
+// is found or many have led to no cheaper plan. Precondition: require_choices_fit().
 Solution solve_with_choices(const Instance& instance, const SolveOptions& options,
                             const Limits& limits, RunObserver& observer);
 
