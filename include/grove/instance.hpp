@@ -51,7 +51,7 @@ struct Task {
   std::vector<std::string> agents = {};  ///< Ids of its agents, distinct, >= 1.
   int duration = 0;  ///< Time steps that its execution takes; 0: a visit is enough.
   /// Number of its agents that must visit it, from 1 on; std::nullopt: all of them. If fewer than
-  /// all must, the solver chooses them, and the plan tells each visit (AgentPlan::work).
+  /// all must, the solver chooses them, and the plan states each visit (AgentPlan::work).
   std::optional<int> need = std::nullopt;
   /// True: its agents are all agents of the instance. `agents` must then be empty or list all of
   /// them; Instance::tasks() lists them.

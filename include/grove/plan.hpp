@@ -16,7 +16,7 @@
 
 namespace grove {
 
-/// A visit that the plan tells: the execution of a task with a duration, or the visit to a task
+/// A visit that the plan states: the execution of a task with a duration, or the visit to a task
 /// that only some of its agents must visit (Task::need).
 struct Work {
   std::string task = {};  ///< Id of the task.
@@ -32,7 +32,7 @@ struct AgentPlan {
   /// Ids of the tasks that it must visit and of those that it visits by choice, in an order of
   /// completion.
   std::vector<std::string> tasks = {};
-  std::vector<Work> work = {};  ///< The visits that the plan tells.
+  std::vector<Work> work = {};  ///< The visits that the plan states.
 };
 
 /// Plan of all agents.

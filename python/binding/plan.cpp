@@ -181,7 +181,7 @@ void add_agent_plan(py::module_& module) {
                     "Ids of the tasks that the robot visits, in order of completion.")
       .def_property_readonly(
           "work", &work_of,
-          "Visits that the plan tells, as [(task, begin, end), ...], in steps: executions of tasks "
+          "Visits that the plan states, as [(task, begin, end), ...], in steps: executions of tasks "
           "with a duration, and visits to tasks that only some of their agents must visit.")
       .def("__repr__", [](const AgentPlan& agent) {
         return "<grove.AgentPlan: " + agent.id + ", cost " + std::to_string(agent.cost) + ">";
@@ -197,7 +197,7 @@ void add_plan(py::module_& module) {
       "A path for every robot of an instance. Immutable.\n\n"
       "Plan(instance, paths): from lists of places, or an array of agents x times "
       "x 2; costs and orders of visits are computed.\n\n"
-      "Plan(instance, paths, work): with the visits that the plan tells, for each agent a list of "
+      "Plan(instance, paths, work): with the visits that the plan states, for each agent a list of "
       "(task, begin, end); see AgentPlan.work.")
       .def(py::init(&from_paths), py::arg("instance"), py::arg("paths"),
            py::arg("work") = py::none())

@@ -210,7 +210,7 @@ Plan plan_from_paths(const Instance& instance, const std::vector<std::vector<Pla
     throw InvalidArgument(
         "/work",
         fmt::format("task '{}' {}; expected the visits that the plan "
-                    "tells",
+                    "states",
                     stated->id, stated->duration > 0 ? "takes time" : "has a choice of agents"));
   return plan_from_paths(instance, paths, std::vector<std::vector<Work>>(paths.size()));
 }

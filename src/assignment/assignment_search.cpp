@@ -6,16 +6,15 @@
 // search, the agents get the goals that minimise the sum of the legs to them from the ends of their
 // routes (an assignment problem).
 //
-// *Regret.* The next visit to insert is one whose second cheapest agent costs most in relation to
-// its cheapest: if that agent's route changes, this visit loses most. For a task that needs several
-// agents, its visits are inserted one after the other.
+// *Regret.* The next visit to insert is that of a task for which the cheapest agent saves most over
+// the agent after those that the task still needs (with one visit left: the second cheapest). For a
+// task that needs several agents, the visits are inserted one after the other.
 //
-// *Variants.* Large neighbourhood search that accepts all routes below the limit, from the best
-// routes, and goals that minimise the legs to them after a random change of each by a few steps.
+// *Variants.* From the best routes, large neighbourhood search that accepts all routes below the
+// limit, and then goals that minimise the sum of legs to which a few random steps are added.
 //
 // *Effort.* After an insertion only the costs for the agent of the changed route are recomputed:
-// O(visits * tasks * stops of a route), and O(visits * tasks) to compare the regrets if few visits
-// have the changed agent among their two cheapest.
+// O(visits * tasks * (stops of a route + agents)) in total.
 #include "assignment/assignment_search.h"
 
 #include <algorithm>

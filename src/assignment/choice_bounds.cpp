@@ -17,7 +17,7 @@
 // a leg to a task includes its execution.) In the end only the required tasks are left. An agent
 // without a destination that must visit a task still rests on a task that it visits: if the last
 // stop is removed, the stop before is a task. For agents whose turns take time, and for agents that
-// start at work on an optional task, the detours are taken as 0: leaving out a visit never makes a
+// start at work, the detours are taken as 0: leaving out a visit never makes a
 // path invalid, unless the agent rests there, and then it can end on its stop before.
 //
 // *Sum.* Each task is visited by at least `need` different agents, so its detours add up to at

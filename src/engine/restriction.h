@@ -21,8 +21,8 @@ struct Restriction {
   std::string has_no_plan;
 };
 
-// Searches the restriction. The result refers to the whole instance: its lower bound is that of the
-// restriction's `bound`, because the bound of the search holds only for the restriction. The search
+// Searches the restriction. The result refers to the whole instance: its lower bound is
+// `restriction.bound`, because the bound of the search holds only for the restriction. The search
 // ends when its plan is within omega of its own bound, so the status can be kFeasible; a remark
 // then says so. If the restriction has no plan, the status is kUnknown, also with a remark.
 Solution solve_restriction(const Restriction& restriction, const SolveOptions& options,

@@ -17,8 +17,7 @@ namespace grove::detail {
 // of the plan that is still valid. One thread at a time.
 class Session {
  public:
-  // Throws InstanceError if the instance has choices: what remains of them after some steps is not
-  // an instance.
+  // Throws InstanceError if the instance has choices, which sessions do not support yet.
   explicit Session(Instance instance);
   // `plan` must be a valid plan of `instance`. Throws InstanceError like the constructor above.
   Session(Instance instance, Plan plan);

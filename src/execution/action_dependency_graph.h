@@ -42,7 +42,7 @@ class ActionDependencyGraph {
  public:
   // Throws std::invalid_argument if two robots of `plan` are on one place at the same time or swap
   // places, or if its number of agents differs from that of `instance`, and InstanceError if the
-  // instance has choices, because the actions do not tell visits without duration. Removes
+  // instance has choices, because the actions do not state visits without duration. Removes
   // transitive dependencies, which are dependencies on another robot's action that the remaining
   // ones imply. O(actions * (log actions + agents / 16)), plus the total length of the paths.
   ActionDependencyGraph(const Instance& instance, const Plan& plan);

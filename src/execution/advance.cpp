@@ -177,7 +177,7 @@ Instance with_ends_of_plan(const Instance& instance, const Plan& plan,
 Remainder advance(const Instance& instance, const Plan& plan, Time time, Rests rests,
                   const std::vector<bool>& before) {
   GROVE_ASSERT(time >= 0, "a plan is never advanced to a time before 0");
-  GROVE_CHECK(!instance.has_choices(), "an instance with choices has no remainder");
+  GROVE_CHECK(!instance.has_choices(), "remainders do not support choices");
   std::vector<AgentLater> agents;
   InstanceBuilder builder = InstanceBuilder::like(instance);
   std::vector<std::vector<std::string>> visitors(instance.tasks().size());

@@ -241,7 +241,7 @@ class ChangeApplication {
 }  // namespace
 
 Changed apply(const Instance& instance, const Plan& plan, const InstanceChange& change) {
-  GROVE_CHECK(!instance.has_choices(), "an instance with choices is never changed");
+  GROVE_CHECK(!instance.has_choices(), "changes do not support choices");
   return ChangeApplication(instance, plan, change).run();
 }
 

@@ -4,7 +4,7 @@
 // Precondition: `solution` has a plan of `instance` that is valid by check().
 // write_libmrp_schedule(), write_visualizer_text() and write_path_lists() throw NotRepresentable if
 // the map is a roadmap, turns of an agent take time, or tasks take time or need only some of their
-// agents, because these formats do not tell visits.
+// agents, because these formats do not state visits.
 #pragma once
 
 #include <cstdint>

@@ -243,7 +243,7 @@ void require_no_stated_choice(const std::filesystem::path& path, const Instance&
   if (found != instance.tasks().end())
     throw InputError(path.string(), "line 1",
                      fmt::format("expected a plan file (JSON), since task '{}' of the instance has "
-                                 "a choice of agents, and other formats do not tell who visits it",
+                                 "a choice of agents, and other formats do not state who visits it",
                                  found->id));
 }
 

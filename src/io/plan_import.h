@@ -48,7 +48,7 @@ Plan plan_of_paths(const Instance& instance, std::vector<Path> paths, Visits vis
 // The agents of the result are those of `instance`, in its order. An agent that is missing in the
 // file has an empty path. Throws InputError for any other content, if a path leaves the map, and
 // for the format of another tool if a task has a choice of agents, because only Grove's plan files
-// tell visits.
+// state visits.
 ClaimedPlan read_plan_of_any_tool(const std::filesystem::path& path, const Instance& instance);
 
 // A plan of any tool, with the cost recomputed as the sum of the times from which the agents rest

@@ -165,12 +165,12 @@ TEST_F(ChoicesExchange, PlansOfOtherToolsTellNoVisits) {
   const std::string paths = "Agent 0: (0,1)->(0,0)->\nAgent 1: (0,3)->(0,2)->(0,3)->(0,4)->\n";
   EXPECT_EQ(refusal([&] { read(paths, instance_with_need()); }),
             "plan: line 1: expected a plan file (JSON), since task 't0' of the instance has a "
-            "choice of agents, and other formats do not tell who visits it");
+            "choice of agents, and other formats do not state who visits it");
   EXPECT_EQ(refusal([&] {
               read("schedule:\n  a0:\n    - x: 1\n      y: 0\n      t: 0\n", instance_with_need());
             }),
             "plan: line 1: expected a plan file (JSON), since task 't0' of the instance has a "
-            "choice of agents, and other formats do not tell who visits it");
+            "choice of agents, and other formats do not state who visits it");
 }
 
 // A path shows which of its goals an agent has chosen.

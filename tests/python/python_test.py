@@ -345,7 +345,7 @@ class Errors(unittest.TestCase):
             (lambda: grove.Instance(world, [{**robot, "start": (0, float("nan"))}]), grove.InputError,
              "found no valid JSON number"),
             (lambda: grove.instance_from_arrays(world, [(0, 0)], []), grove.InvalidArgument, "goals"),
-            (lambda: grove.Plan(small(), [[(0, 0)], [(4, 0)]]), grove.InvalidArgument, "takes time; expected the visits that the plan tells"),
+            (lambda: grove.Plan(small(), [[(0, 0)], [(4, 0)]]), grove.InvalidArgument, "takes time; expected the visits that the plan states"),
             (lambda: grove.picture(small(), "x.bmp"), grove.InvalidArgument, ".svg"),
             (lambda: grove.view(), grove.InvalidArgument, "one or two"),
             (lambda: grove.view(small()).save("/nowhere/x.html"), grove.InputError, "/nowhere"),

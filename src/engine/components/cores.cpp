@@ -15,9 +15,10 @@
 // the cost of the incumbent and a bound (t: of the tree search and the other components; c: of the
 // cores), and r is the rate at which the bound has risen over about the latter half of the effort,
 // so g / r estimates the effort that is left. Without an incumbent the share is k. k is
-// cores_share_with_tasks if agents have tasks and turn freely: their graphs are large, so the solver
-// is slow. Otherwise k is cores_share; the tree search is slow as well if agents need time to turn,
-// because it splits most of their conflicts at a single vertex.
+// cores_share_with_tasks if agents have tasks and turn freely: their graphs are large, so the
+// solver is slow. Otherwise k is cores_share. If agents need time to turn, the tree search is slow
+// as well: of 45 instances (20 agents, 10 to 50 tasks, 10 s), 26 are solved with k = cores_share,
+// 22 with cores_share_with_tasks.
 //
 // *Measured*, by simulation from the bounds over time of either search alone, on 88 instances of
 // seven maps: if the tree search alone proves the optimum, it takes 0.95 of its effort in the

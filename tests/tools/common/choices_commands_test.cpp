@@ -89,7 +89,7 @@ TEST_F(ChoicesCommands, CheckVerifiesPlans) {
   directory_.write("paths", "Agent 0: (0,1)->(0,0)->\nAgent 1: (0,3)->(0,2)->(0,3)->(0,4)->\n");
   EXPECT_EQ(refused({"check", "need.cts.json", "paths"}),
             "paths: line 1: expected a plan file (JSON), since task 't' of the instance has a "
-            "choice of agents, and other formats do not tell who visits it");
+            "choice of agents, and other formats do not state who visits it");
   EXPECT_EQ(run({"check", "goals.cts.json", "paths"}).exit_code, 0);
 }
 

@@ -424,7 +424,7 @@ class RefusedFiles(Case):
         self.assert_accepted("choices", yard)
 
     def test_stated_visits_are_accepted(self):
-        """Checks a plan that tells a visit without duration."""
+        """Checks a plan that states a visit without duration."""
         instance = self.write("any.cts.json", {
             "map": "first.map", "agents": [{"id": "red", "start": [0, 0], "goals": [[0, 0], [8, 0]]},
                                            {"id": "blue", "start": [8, 4]}],
