@@ -29,21 +29,16 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <set>
 #include <utility>
 #include <vector>
 
+#include "assignment/goal_choice.h"
 #include "assignment/route_costs.h"
-#include "sequencing/assignment.h"
 #include "sequencing/sum_of_best_sequences.h"
 
 namespace grove::detail {
 namespace {
-
-std::vector<Place> destinations_of(const Agent& agent) {
-  std::vector<Place> places = agent.goals;
-  if (agent.goal) places.push_back(*agent.goal);
-  return places;
-}
 
 bool can_visit(const Instance& instance, const DistanceFields& distances, AgentIndex index,
                TaskIndex task) {
@@ -57,13 +52,8 @@ bool can_visit(const Instance& instance, const DistanceFields& distances, AgentI
 // Matches agents to goals by augmenting paths.
 class GoalMatching {
  public:
-  explicit GoalMatching(const Instance& instance) : instance_(instance) {
-    for (const Agent& agent : instance.agents())
-      for (const Place place : destinations_of(agent)) places_.push_back(place);
-    std::ranges::sort(places_);
-    places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
-    owner_.assign(places_.size(), kFree);
-  }
+  explicit GoalMatching(const Instance& instance)
+      : instance_(instance), places_(all_destinations(instance)), owner_(places_.size(), kFree) {}
 
   // Returns agents whose goals are fewer than they are; empty if there are none.
   std::vector<AgentIndex> too_many_agents() {
@@ -115,13 +105,8 @@ class Bound {
         distances_(distances),
         limits_(limits),
         costs_(instance, distances),
-        between_stops_(instance.tasks().size(), kUnknown) {
-    for (const Agent& agent : instance.agents())
-      if (agent.kind == 0)
-        for (const Place goal : destinations_of(agent)) goals_.push_back(goal);
-    std::ranges::sort(goals_);
-    goals_.erase(std::unique(goals_.begin(), goals_.end()), goals_.end());
-  }
+        goals_(all_destinations(instance, [](const Agent& agent) { return agent.kind == 0; })),
+        between_stops_(instance.tasks().size(), kUnknown) {}
 
   Cost total() {
     Cost sum = base();
@@ -133,30 +118,16 @@ class Bound {
 
  private:
   Cost base() const {
-    std::vector<Place> places;
-    for (const Agent& agent : instance_.agents())
-      for (const Place place : destinations_of(agent)) places.push_back(place);
-    std::ranges::sort(places);
-    places.erase(std::unique(places.begin(), places.end()), places.end());
+    std::vector<Cost> least(instance_.agents().size());
     Cost sum = 0;
-    std::vector<std::vector<std::int64_t>> cost;
-    for (AgentIndex i = 0; i < instance_.agent_count(); ++i) {
-      const Agent& agent = instance_.agent(i);
-      const Cost least = least_cost(i);
-      if (!agent.has_destination()) {
-        sum += least;
-        continue;
-      }
-      cost.emplace_back(places.size(), kForbidden);
-      for (const Place goal : destinations_of(agent)) {
-        const auto column = std::ranges::lower_bound(places, goal) - places.begin();
-        cost.back()[static_cast<std::size_t>(column)] = std::max(least, cost_to_end_on(i, goal));
-      }
+    for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
+      least[agent] = least_cost(agent);
+      if (!instance_.agent(agent).has_destination()) sum += least[agent];
     }
-    const auto columns = min_cost_assignment(cost);
-    for (std::size_t row = 0; columns && row < cost.size(); ++row)
-      sum += cost[row][static_cast<std::size_t>((*columns)[row])];
-    return sum;
+    const auto choice = cheapest_goals(instance_, [&](AgentIndex agent, Place goal) {
+      return std::max(least[agent], cost_to_end_on(agent, goal));
+    });
+    return choice ? sum + choice->cost : sum;
   }
 
   // A lower bound on the cost of the required tasks, wherever the agent ends.
@@ -252,13 +223,11 @@ std::optional<std::string> infeasible_choices(const Instance& instance,
   }
   const std::vector<AgentIndex> agents = GoalMatching(instance).too_many_agents();
   if (agents.empty()) return std::nullopt;
-  std::vector<Place> places;
+  std::set<Place> places;
   for (const AgentIndex agent : agents)
-    for (const Place place : destinations_of(instance.agent(agent))) places.push_back(place);
-  std::ranges::sort(places);
-  const auto count = std::unique(places.begin(), places.end()) - places.begin();
-  return fmt::format("agents {} have only {} goal{}", names(instance, agents), count,
-                     count == 1 ? "" : "s");
+    for (const Place place : destinations_of(instance.agent(agent))) places.insert(place);
+  return fmt::format("agents {} have only {} goal{}", names(instance, agents), places.size(),
+                     places.size() == 1 ? "" : "s");
 }
 
 Cost lower_bound_of_choices(const Instance& instance, const DistanceFields& distances,

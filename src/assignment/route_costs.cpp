@@ -3,6 +3,8 @@
 
 #include <set>
 
+#include "assignment/goal_choice.h"
+
 namespace grove::detail {
 namespace {
 
@@ -32,9 +34,7 @@ RouteCosts::RouteCosts(const Instance& instance, const DistanceFields& distances
   }
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     const Agent& agent = instance.agent(i);
-    std::vector<Place> places = agent.goals;
-    if (agent.goal) places.push_back(*agent.goal);
-    for (const Place goal : places) {
+    for (const Place goal : destinations_of(agent)) {
       const auto [field, is_new] = goals_.try_emplace({goal, agent.kind, agent.goal_heading});
       if (is_new) field->second = distance_field(world, states_at_rest(instance, i, goal));
     }

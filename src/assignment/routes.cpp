@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "assignment/goal_choice.h"
 #include "model/random.h"
-#include "sequencing/assignment.h"
 
 namespace grove::detail {
 
@@ -56,35 +56,18 @@ Cost Routes::remove(AgentIndex agent, TaskIndex task) {
   return before - leg(agent, at);
 }
 
+// The order of the draws is that of agents and of their goals, so it is repeatable.
 bool Routes::choose_goals(Time noise, std::uint64_t seed) {
   Random random(seed);
-  std::vector<Place> places;
-  for (const Agent& agent : instance_->agents()) {
-    places.insert(places.end(), agent.goals.begin(), agent.goals.end());
-    if (agent.goal) places.push_back(*agent.goal);
-  }
-  std::ranges::sort(places);
-  places.erase(std::unique(places.begin(), places.end()), places.end());
-  std::vector<AgentIndex> rows;
-  std::vector<std::vector<std::int64_t>> cost;
-  for (AgentIndex i = 0; i < instance_->agent_count(); ++i) {
-    const Agent& agent = instance_->agent(i);
-    if (!agent.has_destination()) continue;
-    rows.push_back(i);
-    cost.emplace_back(places.size(), kForbidden);
-    const auto allow = [&](Place goal, Time leg) {
-      const auto column = std::ranges::lower_bound(places, goal) - places.begin();
-      cost.back()[static_cast<std::size_t>(column)] = leg + random.below(noise + 1);
-    };
-    if (agent.goal) allow(*agent.goal, 0);
-    for (const Place goal : agent.goals)
-      if (const Time leg = leg_to_goal(i, goal); leg < kNever) allow(goal, leg);
-  }
-  const auto columns = min_cost_assignment(cost);
-  if (!columns) return false;
-  for (std::size_t row = 0; row < rows.size(); ++row)
-    goals_[rows[row]] = places[static_cast<std::size_t>((*columns)[row])];
-  return true;
+  const auto cost = [&](AgentIndex agent, Place goal) -> std::optional<Cost> {
+    const bool is_fixed = instance_->agent(agent).goal.has_value();
+    const Time leg = is_fixed ? 0 : leg_to_goal(agent, goal);
+    if (leg >= kNever) return std::nullopt;
+    return Cost{leg} + random.below(noise + 1);
+  };
+  auto choice = cheapest_goals(*instance_, cost);
+  if (choice) goals_ = std::move(choice->goals);
+  return choice.has_value();
 }
 
 // An agent that starts at work completes its task first.
