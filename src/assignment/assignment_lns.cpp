@@ -70,9 +70,7 @@ class AssignmentLns {
 
   // May the visit be removed?
   bool is_free(AgentIndex agent, TaskIndex task) const {
-    if (instance_.task(task).needs_all()) return false;
-    const State start = instance_.agent(agent).start;
-    return !instance_.world().is_working(start) || instance_.world().work(start).task != task;
+    return !instance_.task(task).needs_all() && task_at_start(instance_, agent) != task;
   }
 
   void find_neighbours(const RouteCosts& costs) {

@@ -151,11 +151,10 @@ class AssignmentSearch::Builder {
 
   void insert_begun(RegretInsertion& insertion) {
     for (AgentIndex i = 0; i < instance_.agent_count(); ++i) {
-      const State start = instance_.agent(i).start;
-      if (!instance_.world().is_working(start)) continue;
-      const TaskIndex task = instance_.world().work(start).task;
-      if (!instance_.task(task).needs_all()) insertion.count_visit(task);
-      routes_.insert(i, task, 0);
+      const auto task = task_at_start(instance_, i);
+      if (!task) continue;
+      if (!instance_.task(*task).needs_all()) insertion.count_visit(*task);
+      routes_.insert(i, *task, 0);
     }
   }
   bool insert_required() {

@@ -30,7 +30,7 @@ std::vector<Place> all_destinations(const Instance& instance) {
   return all_destinations(instance, [](const Agent&) { return true; });
 }
 
-std::optional<GoalChoice> cheapest_goals(
+std::optional<ChosenGoals> cheapest_goals(
     const Instance& instance, const std::function<std::optional<Cost>(AgentIndex, Place)>& cost) {
   const std::vector<Place> places = all_destinations(instance);
   std::vector<AgentIndex> rows;
@@ -46,7 +46,7 @@ std::optional<GoalChoice> cheapest_goals(
   }
   const auto columns = min_cost_assignment(matrix);
   if (!columns) return std::nullopt;
-  GoalChoice choice{.goals = std::vector<std::optional<Place>>(instance.agents().size())};
+  ChosenGoals choice{.goals = std::vector<std::optional<Place>>(instance.agents().size())};
   for (std::size_t row = 0; row < rows.size(); ++row) {
     const auto column = static_cast<std::size_t>((*columns)[row]);
     choice.goals[rows[row]] = places[column];

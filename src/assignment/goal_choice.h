@@ -19,7 +19,7 @@ std::vector<Place> all_destinations(const Instance& instance,
 std::vector<Place> all_destinations(const Instance& instance);
 
 // A choice of distinct destinations, and the sum of its costs.
-struct GoalChoice {
+struct ChosenGoals {
   std::vector<std::optional<Place>> goals;  // by AgentIndex; nullopt: no destination
   Cost cost = 0;
 };
@@ -27,7 +27,7 @@ struct GoalChoice {
 // Returns a choice of least cost (an assignment problem), or nullopt if none exists.
 // cost(agent, place), for each of the agent's destinations: at least 0; kNever or more is allowed
 // and means a very expensive destination; nullopt: not allowed.
-std::optional<GoalChoice> cheapest_goals(
+std::optional<ChosenGoals> cheapest_goals(
     const Instance& instance, const std::function<std::optional<Cost>(AgentIndex, Place)>& cost);
 
 }  // namespace grove::detail

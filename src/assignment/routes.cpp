@@ -9,6 +9,12 @@
 
 namespace grove::detail {
 
+std::optional<TaskIndex> task_at_start(const Instance& instance, AgentIndex agent) {
+  const State start = instance.agent(agent).start;
+  if (!instance.world().is_working(start)) return std::nullopt;
+  return instance.world().work(start).task;
+}
+
 Routes::Routes(const RouteCosts& costs)
     : costs_(&costs),
       instance_(&costs.instance()),
@@ -72,9 +78,8 @@ bool Routes::choose_goals(Time noise, std::uint64_t seed) {
 
 // An agent that starts at work completes its task first.
 std::size_t Routes::first_position(AgentIndex agent, TaskIndex task) const {
-  const State start = instance_->agent(agent).start;
-  if (!instance_->world().is_working(start) || stops_[agent].empty()) return 0;
-  return instance_->world().work(start).task == task ? 0 : 1;
+  const auto begun = task_at_start(*instance_, agent);
+  return !begun || *begun == task || stops_[agent].empty() ? 0 : 1;
 }
 
 // The leg into position `at` of the route, i.e. from the stop before it.

@@ -14,6 +14,10 @@
 
 namespace grove::detail {
 
+// The task that the agent is executing at its start, which it therefore visits first; nullopt:
+// none.
+std::optional<TaskIndex> task_at_start(const Instance& instance, AgentIndex agent);
+
 // Cheapest position for a task in a route.
 struct Insertion {
   Time cost = kNever;  // increase of the route's cost; kNever: no route visits the task there
