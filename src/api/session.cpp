@@ -27,8 +27,7 @@ std::vector<std::string> agents_of(const detail::Instance& instance, const Task&
                                    const std::string& field) {
   std::vector<std::string> ids = task.agents;
   if (task.all_agents) {
-    ids.clear();
-    for (const detail::Agent& agent : instance.agents()) ids.push_back(agent.id);
+    ids = instance.agent_ids();
     if (!task.agents.empty() && !std::ranges::is_permutation(task.agents, ids))
       throw InvalidArgument(field + "/agents",
                             "found a list of some agents, and all_agents; "

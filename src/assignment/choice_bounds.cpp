@@ -74,7 +74,7 @@ class GoalMatching {
   static constexpr AgentIndex kFree = -1;
 
   bool match(AgentIndex agent) {
-    for (const Place place : destinations_of(instance_.agent(agent))) {
+    for (const Place place : instance_.agent(agent).destinations()) {
       const auto i =
           static_cast<std::size_t>(std::ranges::lower_bound(places_, place) - places_.begin());
       if (seen_[i]) continue;
@@ -165,7 +165,7 @@ class Bound {
       if (next != task)
         least = std::min(
             least, first + costs_.between(index, task, next) - costs_.from_start(index, next));
-    for (const Place goal : destinations_of(agent))
+    for (const Place goal : agent.destinations())
       least = std::min(
           least, first + costs_.to_goal(index, task, goal) - costs_.start_to_goal(index, goal));
     return std::max(least, Cost{0});
@@ -225,7 +225,7 @@ std::optional<std::string> infeasible_choices(const Instance& instance,
   if (agents.empty()) return std::nullopt;
   std::set<Place> places;
   for (const AgentIndex agent : agents)
-    for (const Place place : destinations_of(instance.agent(agent))) places.insert(place);
+    for (const Place place : instance.agent(agent).destinations()) places.insert(place);
   return fmt::format("agents {} have only {} goal{}", names(instance, agents), places.size(),
                      places.size() == 1 ? "" : "s");
 }

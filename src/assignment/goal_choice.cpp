@@ -9,18 +9,12 @@
 
 namespace grove::detail {
 
-std::vector<Place> destinations_of(const Agent& agent) {
-  std::vector<Place> places = agent.goals;
-  if (agent.goal) places.push_back(*agent.goal);
-  return places;
-}
-
 std::vector<Place> all_destinations(const Instance& instance,
                                     const std::function<bool(const Agent&)>& include) {
   std::vector<Place> places;
   for (const Agent& agent : instance.agents())
     if (include(agent))
-      for (const Place place : destinations_of(agent)) places.push_back(place);
+      for (const Place place : agent.destinations()) places.push_back(place);
   std::ranges::sort(places);
   places.erase(std::unique(places.begin(), places.end()), places.end());
   return places;
@@ -39,7 +33,7 @@ std::optional<ChosenGoals> cheapest_goals(
     if (!instance.agent(agent).has_destination()) continue;
     rows.push_back(agent);
     matrix.emplace_back(places.size(), kForbidden);
-    for (const Place goal : destinations_of(instance.agent(agent))) {
+    for (const Place goal : instance.agent(agent).destinations()) {
       const auto column = std::ranges::lower_bound(places, goal) - places.begin();
       matrix.back()[static_cast<std::size_t>(column)] = cost(agent, goal).value_or(kForbidden);
     }

@@ -11,9 +11,7 @@
 
 namespace grove::detail {
 
-// The places of which the agent may have one as its destination; empty: it has no destination.
-std::vector<Place> destinations_of(const Agent& agent);
-// Those of all agents that `include` selects, distinct, in ascending order.
+// The possible destinations of all agents that `include` selects, distinct, in ascending order.
 std::vector<Place> all_destinations(const Instance& instance,
                                     const std::function<bool(const Agent&)>& include);
 std::vector<Place> all_destinations(const Instance& instance);

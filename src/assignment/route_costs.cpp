@@ -3,8 +3,6 @@
 
 #include <set>
 
-#include "assignment/goal_choice.h"
-
 namespace grove::detail {
 namespace {
 
@@ -34,7 +32,7 @@ RouteCosts::RouteCosts(const Instance& instance, const DistanceFields& distances
   }
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     const Agent& agent = instance.agent(i);
-    for (const Place goal : destinations_of(agent)) {
+    for (const Place goal : agent.destinations()) {
       const auto [field, is_new] = goals_.try_emplace({goal, agent.kind, agent.goal_heading});
       if (is_new) field->second = distance_field(world, states_at_rest(instance, i, goal));
     }

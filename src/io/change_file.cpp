@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/change_file.h"
 
+#include "io/agents_entry.h"
 #include "io/json_value.h"
 #include "io/known_keys.h"
 #include "io/path_entry.h"
@@ -8,23 +9,13 @@
 namespace grove::detail {
 namespace {
 
-// Returns the ids of the agents of a task; "*" stands for those of all agents.
-std::vector<std::string> read_agents(const JsonValue& task, const Instance& instance) {
-  const JsonValue agents = task.member("agents");
-  if (!agents.json().is_string()) return agents.texts();
-  if (agents.text() != "*") agents.fail_expected("a list of ids, or \"*\" for all agents");
-  std::vector<std::string> ids;
-  for (const Agent& agent : instance.agents()) ids.push_back(agent.id);
-  return ids;
-}
-
 NewTask read_task(const JsonValue& json, const Instance& instance) {
   NewTask task;
   task.id = json.member("id").text();
   const JsonValue cell = json.member("cell");
   task.place = instance.roadmap() ? read_vertex(*instance.roadmap(), cell)
                                   : read_pose(instance.map(), {}, cell).place;
-  task.agents = read_agents(json, instance);
+  task.agents = is_for_all_agents(json) ? instance.agent_ids() : json.member("agents").texts();
   if (const auto duration = json.find("duration"))
     task.duration = static_cast<Time>(duration->integer(0, InstanceBuilder::kMaxDuration));
   return task;

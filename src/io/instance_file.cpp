@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "io/agents_entry.h"
 #include "io/atomic_file.h"
 #include "io/format_support.h"
 #include "io/input_error.h"
@@ -123,13 +124,6 @@ void add_agent(InstanceBuilder& builder, const JsonValue& agent) {
 Time read_duration(const JsonValue& task) {
   const auto duration = task.find("duration");
   return duration ? static_cast<Time>(duration->integer(0, InstanceBuilder::kMaxDuration)) : 0;
-}
-
-bool is_for_all_agents(const JsonValue& task) {
-  const JsonValue agents = task.member("agents");
-  if (!agents.json().is_string()) return false;
-  if (agents.text() != "*") agents.fail_expected("a list of ids, or \"*\" for all agents");
-  return true;
 }
 
 // Returns the ids of the agents of a task; "*" stands for those of all agents.

@@ -218,9 +218,7 @@ std::string potential_goals_text(const Grid& grid, const Agent& agent) {
   std::string text = "    potentialGoals:";
   if (!agent.has_destination()) return text + " []\n";
   text += '\n';
-  std::vector<Place> goals = agent.goals;
-  if (agent.goal) goals.push_back(*agent.goal);
-  for (const Place goal : goals)
+  for (const Place goal : agent.destinations())
     fmt::format_to(std::back_inserter(text), "      - {}\n", cell_text(grid, goal));
   return text;
 }

@@ -34,6 +34,12 @@ void require_new_id(const std::string& id, bool is_new) {
 
 }  // namespace
 
+std::vector<Place> Agent::destinations() const {
+  std::vector<Place> places = goals;
+  if (goal) places.push_back(*goal);
+  return places;
+}
+
 Instance::Instance(std::shared_ptr<const Map> map) : map_(std::move(map)), world_(&ground(*map_)) {}
 
 AgentSpec Instance::spec(AgentIndex agent) const {
@@ -49,6 +55,12 @@ AgentSpec Instance::spec(AgentIndex agent) const {
     spec.working = WorkBegun{tasks_[work.task].id, work.done};
   }
   return spec;
+}
+
+std::vector<std::string> Instance::agent_ids() const {
+  std::vector<std::string> ids;
+  for (const Agent& agent : agents_) ids.push_back(agent.id);
+  return ids;
 }
 
 bool Instance::has_choices() const {
@@ -85,8 +97,7 @@ std::vector<State> Instance::states_visiting(TaskIndex task) const {
 
 std::vector<State> Instance::states_to_rest(AgentIndex agent) const {
   const Agent& a = agents_[agent];
-  std::vector<Place> places = a.goals;
-  if (a.goal) places.push_back(*a.goal);
+  std::vector<Place> places = a.destinations();
   for (const TaskIndex task : a.tasks)
     if (!a.has_destination()) places.push_back(tasks_[task].cell);
   std::ranges::sort(places);
@@ -123,12 +134,6 @@ InstanceBuilder InstanceBuilder::like(const Instance& instance) {
   InstanceBuilder builder(instance.shared_map());
   if (!instance.may_follow()) builder.forbid_following();
   return builder;
-}
-
-std::vector<std::string> InstanceBuilder::agent_ids() const {
-  std::vector<std::string> ids;
-  for (const Agent& agent : instance_.agents_) ids.push_back(agent.id);
-  return ids;
 }
 
 std::string InstanceBuilder::name(Place place) const {

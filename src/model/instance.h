@@ -40,6 +40,8 @@ struct Agent {
   std::vector<TaskIndex> stops = {};
 
   bool has_destination() const { return goal || !goals.empty(); }
+  // The places of which it may have one as its destination; empty: it has none.
+  std::vector<Place> destinations() const;
   // True for an agent with neither a destination nor tasks that it must visit. It may rest
   // anywhere.
   bool is_idle() const { return !has_destination() && tasks.empty(); }
@@ -115,6 +117,8 @@ class Instance {
   const Task& task(TaskIndex i) const { return tasks_[i]; }
   int agent_count() const { return static_cast<int>(agents_.size()); }
   int task_count() const { return static_cast<int>(tasks_.size()); }
+  // The ids of all agents, by AgentIndex.
+  std::vector<std::string> agent_ids() const;
   // True if an agent may choose its destination, or whether to visit a task.
   bool has_choices() const;
   // True (the default) if an agent may enter a place in the step in which another agent leaves it.
@@ -148,9 +152,10 @@ class Instance {
     const Work& work = world_->work(state);
     return work.task == task && work.completed;
   }
-  // True if the agent may rest in `state` once it has visited all tasks that it must visit. (An
-  // agent without a destination may also rest on the place of an optional task that it has
-  // visited.)
+  // True if the agent may rest in `state` once it has visited all tasks that it must visit. Two
+  // rules for agents with optional tasks are not part of it, because they depend on more than the
+  // state: without a destination, an agent that must visit a task may also rest on an optional one
+  // that it has visited, and one that must visit none may not rest within a turn.
   bool may_rest(AgentIndex agent, State state) const;
   // states_visiting(): all states in which is_visited() is true. states_to_rest(): all states in
   // which may_rest() is true; empty for an idle agent, which may rest in any state.
@@ -188,7 +193,7 @@ class InstanceBuilder {
   const Map& map() const { return instance_.map(); }
   const Roadmap* roadmap() const { return instance_.roadmap(); }
   // The ids of the agents added so far, in order.
-  std::vector<std::string> agent_ids() const;
+  std::vector<std::string> agent_ids() const { return instance_.agent_ids(); }
 
   void forbid_following() { instance_.may_follow_ = false; }
 
