@@ -142,6 +142,7 @@ class AssignmentSearch::Builder {
     }
     return std::nullopt;
   }
+  const Routes& routes() const { return routes_; }
 
  private:
   Assignment remembered(Assignment found) {
@@ -202,6 +203,10 @@ std::optional<Assignment> AssignmentSearch::first(const Limits& limits) {
 
 std::optional<Assignment> AssignmentSearch::next(Cost cost_limit, const Limits& limits) {
   return builder_->next(cost_limit, limits);
+}
+
+const Routes& AssignmentSearch::routes() const {
+  return builder_->routes();
 }
 
 }  // namespace grove::detail

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "assignment/assignment.h"
+#include "assignment/routes.h"
 #include "model/distance_field.h"
 #include "model/instance.h"
 #include "model/limits.h"
@@ -30,6 +31,8 @@ class AssignmentSearch {
   // Returns a further assignment whose routes cost less than `cost_limit`, and which was not
   // returned before. Returns nullopt if it finds none. Call first() before.
   std::optional<Assignment> next(Cost cost_limit, const Limits& limits);
+  // The best routes so far; without stops before first() has returned.
+  const Routes& routes() const;
 
  private:
   class Builder;

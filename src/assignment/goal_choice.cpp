@@ -38,11 +38,12 @@ std::optional<ChosenGoals> cheapest_goals(
       matrix.back()[static_cast<std::size_t>(column)] = cost(agent, goal).value_or(kForbidden);
     }
   }
-  const auto columns = min_cost_assignment(matrix);
-  if (!columns) return std::nullopt;
-  ChosenGoals choice{.goals = std::vector<std::optional<Place>>(instance.agents().size())};
+  const auto assignment = min_cost_assignment(matrix);
+  if (!assignment) return std::nullopt;
+  ChosenGoals choice{.goals = std::vector<std::optional<Place>>(instance.agents().size()),
+                     .prices = assignment->prices};
   for (std::size_t row = 0; row < rows.size(); ++row) {
-    const auto column = static_cast<std::size_t>((*columns)[row]);
+    const auto column = static_cast<std::size_t>(assignment->columns[row]);
     choice.goals[rows[row]] = places[column];
     choice.cost += matrix[row][column];
   }

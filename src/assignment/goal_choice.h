@@ -20,6 +20,7 @@ std::vector<Place> all_destinations(const Instance& instance);
 struct ChosenGoals {
   std::vector<std::optional<Place>> goals;  // by AgentIndex; nullopt: no destination
   Cost cost = 0;
+  std::vector<Cost> prices;  // by index in all_destinations(); see MinCostAssignment
 };
 
 // Returns a choice of least cost (an assignment problem), or nullopt if none exists.

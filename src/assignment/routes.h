@@ -31,6 +31,7 @@ class Routes {
   // `costs` must outlive this object.
   explicit Routes(const RouteCosts& costs);
 
+  const RouteCosts& costs() const { return *costs_; }
   const std::vector<TaskIndex>& stops(AgentIndex agent) const { return stops_[agent]; }
   std::optional<Place> goal(AgentIndex agent) const { return goals_[agent]; }
   bool visits(AgentIndex agent, TaskIndex task) const;
@@ -50,12 +51,13 @@ class Routes {
   // goals.
   bool choose_goals() { return choose_goals(0, 0); }
   bool choose_goals(Time noise, std::uint64_t seed);
+  // The leg to `goal` from the end of the agent's route.
+  Time leg_to_goal(AgentIndex agent, Place goal) const;
 
  private:
   std::size_t first_position(AgentIndex agent, TaskIndex task) const;
   Time leg(AgentIndex agent, std::size_t at) const;
   Time leg_from(AgentIndex agent, TaskIndex task, std::size_t at) const;
-  Time leg_to_goal(AgentIndex agent, Place goal) const;
   Time to_rest(AgentIndex agent, TaskIndex from) const;
   Time start_to_rest(AgentIndex agent) const;
 

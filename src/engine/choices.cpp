@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <new>
 #include <optional>
 #include <string>
@@ -11,6 +13,7 @@
 #include "assignment/assignment.h"
 #include "assignment/assignment_search.h"
 #include "assignment/choice_bounds.h"
+#include "assignment/route_bound.h"
 #include "engine/adaptations.h"
 #include "engine/checkpoint.h"
 #include "engine/merged_observer.h"
@@ -24,6 +27,9 @@ namespace {
 // Of the time that is left: for the search of the first assignment, and of each other one.
 constexpr double kFirstShare = 0.5;
 constexpr double kOtherShare = 0.125;
+// Effort of the Lagrangian bound (about 1 s), and its share of the time at most.
+constexpr std::int64_t kBoundEffort = 150'000'000;
+constexpr double kBoundShare = 0.2;
 constexpr int kMaxFailures = 200;  // assignments in succession that lead to no cheaper plan
 
 Solution infeasible(const SolveOptions& options, const std::string& reason, RunObserver& observer) {
@@ -111,10 +117,13 @@ Solution assign_and_solve(const Instance& instance, const SolveOptions& options,
   if (!distances.complete()) return stopped_solution(options, limits);
   if (const auto reason = infeasible_choices(instance, distances))
     return infeasible(options, *reason, observer);
-  const Cost bound = lower_bound_of_choices(instance, distances, limits);
+  Cost bound = lower_bound_of_choices(instance, distances, limits);
   AssignmentSearch assignments(instance, distances, options.seed);
   const auto first = assignments.first(limits);
   if (!first) return without_assignment(options, limits, bound);
+  RouteBound routes(assignments.routes());
+  routes.improve(kBoundEffort, part_of(limits, options, kBoundShare));
+  bound = std::max(bound, routes.lower_bound());
   merged.note("Assigns the tasks and goals by insertion; the lower bound is for all assignments.");
   return ChoicesRun(instance, options, bound, limits, merged).run(assignments, *first);
 }

@@ -109,7 +109,7 @@ class DestinationChooser {
       for (Ends& ends : ends_)
         if (!ends.extend(reach, limits_)) return std::nullopt;
       const auto assignment = min_cost_assignment(costs());
-      if (is_best(assignment)) return assignment ? finish(chosen, *assignment) : std::nullopt;
+      if (is_best(assignment)) return assignment ? finish(chosen, assignment->columns) : std::nullopt;
     }
   }
 
@@ -154,12 +154,12 @@ class DestinationChooser {
   }
 
   // True if no assignment that uses an end of unknown cost can be better than `assignment`.
-  bool is_best(const std::optional<std::vector<int>>& assignment) const {
+  bool is_best(const std::optional<MinCostAssignment>& assignment) const {
     if (std::ranges::all_of(ends_, &Ends::all_known)) return true;
     if (!assignment) return false;
     Cost excess = 0;
     for (std::size_t i = 0; i < ends_.size(); ++i)
-      excess += cost_of(ends_[i], task_in(ends_[i], (*assignment)[i])) - ends_[i].best();
+      excess += cost_of(ends_[i], task_in(ends_[i], assignment->columns[i])) - ends_[i].best();
     return std::ranges::all_of(ends_, [&](const Ends& ends) {
       return ends.all_known() || excess < ends.outside_bound() - ends.best();
     });

@@ -50,6 +50,12 @@ class Assignment {
     return result;
   }
 
+  std::vector<std::int64_t> prices() const {
+    std::vector<std::int64_t> result;
+    for (const std::int64_t dual : column_dual_) result.push_back(-dual);
+    return result;
+  }
+
  private:
   void relax(int from, int via, std::int64_t reached) {
     for (int column = 0; column < columns_; ++column) {
@@ -100,7 +106,7 @@ class Assignment {
 
 }  // namespace
 
-std::optional<std::vector<int>> min_cost_assignment(
+std::optional<MinCostAssignment> min_cost_assignment(
     const std::vector<std::vector<std::int64_t>>& cost) {
   GROVE_ASSERT(
       std::ranges::all_of(cost, [&](const auto& row) { return row.size() == cost[0].size(); }),
@@ -108,7 +114,7 @@ std::optional<std::vector<int>> min_cost_assignment(
   Assignment assignment(cost);
   for (int row = 0; row < static_cast<int>(cost.size()); ++row)
     if (!assignment.add_row(row)) return std::nullopt;
-  return assignment.columns_of_rows();
+  return MinCostAssignment{assignment.columns_of_rows(), assignment.prices()};
 }
 
 }  // namespace grove::detail

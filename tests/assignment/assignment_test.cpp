@@ -11,6 +11,7 @@
 
 #include "assignment/assignment_search.h"
 #include "assignment/choice_bounds.h"
+#include "assignment/route_bound.h"
 #include "model/check.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/joint_oracle.h"
@@ -103,6 +104,28 @@ TEST(Assignment, BoundsAreTrue) {
     ++instances;
   });
   EXPECT_GT(4 * tight, instances);
+}
+
+// The Lagrangian bound holds after any number of steps.
+TEST(Assignment, RouteBoundsAreValid) {
+  int instances = 0;
+  int tight = 0;
+  for_each_instance(300, [&](const Instance& instance, const oracle::Answer& truth) {
+    if (!truth.plan) return;
+    const DistanceFields distances(instance);
+    AssignmentSearch search(instance, distances, 1);
+    if (!search.first(Limits())) return;
+    RouteBound bound(search.routes());
+    for (const std::int64_t effort : {1, 1'000, 100'000}) {
+      const Cost before = bound.lower_bound();
+      bound.improve(effort, Limits());
+      EXPECT_GE(bound.lower_bound(), before);
+      EXPECT_LE(bound.lower_bound(), truth.plan->cost);
+    }
+    tight += bound.lower_bound() == truth.plan->cost ? 1 : 0;
+    ++instances;
+  });
+  EXPECT_GT(5 * tight, 2 * instances);
 }
 
 TEST(Assignment, TooFewGoals) {

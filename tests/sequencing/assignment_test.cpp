@@ -43,9 +43,22 @@ TEST(Assignment, AgreesWithEnumeration) {
       continue;
     }
     std::int64_t total = 0;
-    for (std::size_t row = 0; row < rows; ++row) total += cost[row][(*assignment)[row]];
+    for (std::size_t row = 0; row < rows; ++row) total += cost[row][assignment->columns[row]];
     EXPECT_EQ(total, *best);
-    EXPECT_EQ(std::set(assignment->begin(), assignment->end()).size(), rows);
+    const std::set<int> used(assignment->columns.begin(), assignment->columns.end());
+    EXPECT_EQ(used.size(), rows);
+    for (std::size_t column = 0; column < assignment->prices.size(); ++column) {
+      EXPECT_GE(assignment->prices[column], 0);
+      if (!used.contains(static_cast<int>(column))) EXPECT_EQ(assignment->prices[column], 0);
+    }
+    for (std::size_t row = 0; row < rows; ++row) {
+      const auto price_of = [&](std::size_t column) {
+        return cost[row][column] + assignment->prices[column];
+      };
+      const auto own = static_cast<std::size_t>(assignment->columns[row]);
+      for (std::size_t column = 0; column < columns; ++column)
+        if (cost[row][column] < kForbidden) EXPECT_LE(price_of(own), price_of(column));
+    }
   }
   EXPECT_GT(infeasible, 200);
 }

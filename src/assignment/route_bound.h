@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Lagrangian lower bound on the routes of agents that choose tasks and destinations.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "assignment/routes.h"
+#include "model/instance.h"
+#include "model/limits.h"
+#include "model/omega.h"
+
+namespace grove::detail {
+
+// A lower bound on the cost of every plan, without conflicts between agents. It relaxes how often
+// tasks are visited and goals are used, and which visits an agent repeats (ng-routes: Baldacci,
+// Mingozzi and Roberti 2011). The proof is at the head of route_bound.cpp. Repeatable, unless a
+// limit is reached. One thread at a time.
+class RouteBound {
+ public:
+  // `routes`: good routes, which determine the first multipliers. Their RouteCosts must outlive
+  // this object.
+  explicit RouteBound(const Routes& routes);
+  ~RouteBound();
+
+  // Improves the multipliers by subgradient steps, until the bound reaches the cost of the routes,
+  // or about `max_effort` labels (model/effort.h) are done, or a limit is reached.
+  void improve(std::int64_t max_effort, const Limits& limits);
+
+  // The greatest bound so far; 0 before the first step.
+  Cost lower_bound() const;
+
+ private:
+  class Relaxation;
+  std::unique_ptr<Relaxation> relaxation_;
+};
+
+}  // namespace grove::detail
