@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "assignment/routes.h"
@@ -31,6 +32,15 @@ class RouteBound {
 
   // The greatest bound so far; 0 before the first step.
   Cost lower_bound() const;
+
+  // The choices that an agent may make in a plan that costs less than `cutoff`, by AgentIndex. The
+  // others are proven to cost at least that much (reduced cost fixing). Returns nullopt if there is
+  // no bound yet, or if a limit is reached.
+  struct Choices {
+    std::vector<TaskIndex> visits;  // of Agent::options, in ascending order
+    std::vector<Place> goals;       // of Agent::goals
+  };
+  std::optional<std::vector<Choices>> choices_below(Cost cutoff, const Limits& limits);
 
  private:
   class Relaxation;

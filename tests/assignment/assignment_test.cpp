@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -106,10 +108,27 @@ TEST(Assignment, BoundsAreTrue) {
   EXPECT_GT(4 * tight, instances);
 }
 
-// The Lagrangian bound holds after any number of steps.
+// Expects that `choices` contain all choices of the plan.
+void expect_contains(const Instance& instance, const std::vector<RouteBound::Choices>& choices,
+                     const Plan& plan) {
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+    const AgentPlan& agent = plan.agents[i];
+    for (const WorkTime& work : agent.work)
+      if (!instance.task(work.task).needs_all()) {
+        EXPECT_EQ(std::ranges::count(choices[i].visits, work.task), 1);
+      }
+    if (!instance.agent(i).goals.empty()) {
+      EXPECT_EQ(std::ranges::count(choices[i].goals, instance.world().place(agent.path.back())), 1);
+    }
+  }
+}
+
+// The Lagrangian bound holds after any number of steps, and fixes no choice of an optimal plan.
 TEST(Assignment, RouteBoundsAreValid) {
   int instances = 0;
   int tight = 0;
+  std::ptrdiff_t possible = 0;
+  std::ptrdiff_t left = 0;
   for_each_instance(300, [&](const Instance& instance, const oracle::Answer& truth) {
     if (!truth.plan) return;
     const DistanceFields distances(instance);
@@ -121,11 +140,18 @@ TEST(Assignment, RouteBoundsAreValid) {
       bound.improve(effort, Limits());
       EXPECT_GE(bound.lower_bound(), before);
       EXPECT_LE(bound.lower_bound(), truth.plan->cost);
+      if (const auto choices = bound.choices_below(truth.plan->cost + 1, Limits()))
+        expect_contains(instance, *choices, *truth.plan);
     }
+    for (AgentIndex i = 0; i < instance.agent_count(); ++i)
+      possible += std::ssize(instance.agent(i).options);
+    if (const auto choices = bound.choices_below(truth.plan->cost, Limits()))
+      for (const RouteBound::Choices& agent : *choices) left += std::ssize(agent.visits);
     tight += bound.lower_bound() == truth.plan->cost ? 1 : 0;
     ++instances;
   });
   EXPECT_GT(5 * tight, 2 * instances);
+  EXPECT_LT(left, possible);
 }
 
 TEST(Assignment, TooFewGoals) {

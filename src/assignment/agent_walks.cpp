@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// *Legs through tasks.* Let w be a task without duration on a shortest path from u to v, for an
+// agent that turns freely and may or must visit w. If a walk has not visited w before the leg from
+// u to v, it can visit w there: this adds no cost, and a later visit of w can be left out, which
+// adds no cost either. If it has visited w, but does not remember it, a second visit adds no cost.
+// (Prizes are not negative.) So a label that does not remember w need not make the leg from u to v:
+// a walk through w costs no more.
+#include "assignment/agent_walks.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace grove::detail {
+namespace {
+
+constexpr int kMaxRemembered = 10;
+constexpr std::int32_t kNone = -1;
+
+// Adds the legs of one agent.
+class LegBuilder {
+ public:
+  LegBuilder(const RouteCosts& costs, AgentWalks& walks)
+      : costs_(costs), instance_(costs.instance()), walks_(walks), order_(walks.tasks.size()) {
+    for (std::int32_t i = 0; i < std::ssize(order_); ++i) order_[i] = i;
+  }
+
+  void add_from_start() {
+    const auto steps_to = [&](TaskIndex to) { return costs_.from_start(walks_.agent, to); };
+    for_each_leg(steps_to, [&](std::int32_t to, Time steps, std::int32_t through) {
+      if (through == kNone) walks_.forward.stops[to].first = steps * AgentWalks::kUnit;
+    });
+  }
+
+  void add_from(std::int32_t from) {
+    const auto steps_to = [&](TaskIndex to) {
+      return costs_.between(walks_.agent, walks_.tasks[from], to);
+    };
+    for_each_leg(steps_to, [&](std::int32_t to, Time steps, std::int32_t through) {
+      if (to == from) return;
+      const NgStops::Memory needed = through == kNone ? 0 : walks_.forward.bits_of(from, through);
+      if (through == kNone || needed != 0)
+        walks_.forward.stops[from].legs.push_back({to, steps * AgentWalks::kUnit, needed});
+    });
+  }
+
+ private:
+  // Calls add(stop, steps, a stop on the way or kNone), for each stop, the nearest first.
+  template <class StepsTo, class Add>
+  void for_each_leg(const StepsTo& steps_to, Add add) {
+    std::ranges::stable_sort(order_, {},
+                             [&](std::int32_t stop) { return steps_to(walks_.tasks[stop]); });
+    for (const std::int32_t to : order_) {
+      const Time steps = steps_to(walks_.tasks[to]);
+      if (steps < kNever) add(to, steps, stop_between(steps_to, to));
+    }
+  }
+
+  // A stop without duration on a shortest path to `to`.
+  template <class StepsTo>
+  std::int32_t stop_between(const StepsTo& steps_to, std::int32_t to) const {
+    if (instance_.agent(walks_.agent).kind > 0) return kNone;
+    const TaskIndex end = walks_.tasks[to];
+    const Time direct = steps_to(end);
+    for (const std::int32_t stop : order_) {
+      const TaskIndex task = walks_.tasks[stop];
+      const Time first = steps_to(task);
+      if (first >= direct) break;
+      // Tasks on the place where the leg begins or ends are not between the two.
+      if (first > 0 && instance_.task(task).duration == 0 &&
+          instance_.task(task).cell != instance_.task(end).cell &&
+          first + costs_.between(walks_.agent, task, end) == direct)
+        return stop;
+    }
+    return kNone;
+  }
+
+  const RouteCosts& costs_;
+  const Instance& instance_;
+  AgentWalks& walks_;
+  std::vector<std::int32_t> order_;  // all stops
+};
+
+void add_neighbors(const RouteCosts& costs, AgentWalks& walks) {
+  for (std::size_t stop = 0; stop < walks.tasks.size(); ++stop) {
+    std::vector<std::pair<Time, std::int32_t>> others;
+    for (std::size_t other = 0; other < walks.tasks.size(); ++other)
+      others.emplace_back(
+          other == stop ? -1 : costs.between(walks.agent, walks.tasks[stop], walks.tasks[other]),
+          static_cast<std::int32_t>(other));
+    std::ranges::partial_sort(others, others.begin() + walks.forward.neighbors);
+    for (int i = 0; i < walks.forward.neighbors; ++i)
+      walks.forward.stops[stop].neighbors.push_back(others[i].second);
+  }
+}
+
+}  // namespace
+
+AgentWalks make_agent_walks(const RouteCosts& costs, AgentIndex index, int neighbors) {
+  const Agent& agent = costs.instance().agent(index);
+  AgentWalks walks{.agent = index,
+                   .tasks = agent.tasks,
+                   .forward = {},
+                   .goals = {},
+                   .start_to_goals = {},
+                   .to_goals = {}};
+  walks.tasks.insert(walks.tasks.end(), agent.options.begin(), agent.options.end());
+  walks.forward.stops.resize(walks.tasks.size());
+  walks.forward.remembered = std::min(kMaxRemembered, static_cast<int>(agent.tasks.size()));
+  walks.forward.neighbors = std::min({neighbors, NgStops::kMaxBits - walks.forward.remembered,
+                                      static_cast<int>(walks.tasks.size())});
+  walks.goals = agent.destinations();
+  for (const Place goal : walks.goals)
+    walks.start_to_goals.push_back(costs.start_to_goal(index, goal));
+  for (const TaskIndex task : walks.tasks) {
+    walks.to_goals.emplace_back();
+    for (const Place goal : walks.goals)
+      walks.to_goals.back().push_back(costs.to_goal(index, task, goal));
+  }
+  add_neighbors(costs, walks);
+  LegBuilder legs(costs, walks);
+  legs.add_from_start();
+  for (std::int32_t from = 0; from < std::ssize(walks.tasks); ++from) legs.add_from(from);
+  return walks;
+}
+
+NgStops AgentWalks::reversed(const RouteCosts& costs,
+                             const std::vector<std::int64_t>& first_costs) const {
+  NgStops reverse = forward;
+  for (std::size_t stop = 0; stop < tasks.size(); ++stop) {
+    reverse.stops[stop].first = first_costs[stop];
+    reverse.stops[stop].legs.clear();
+  }
+  for (std::int32_t from = 0; from < std::ssize(tasks); ++from)
+    for (std::int32_t to = 0; to < std::ssize(tasks); ++to) {
+      const Time steps = costs.between(agent, tasks[from], tasks[to]);
+      if (from != to && steps < kNever) reverse.stops[to].legs.push_back({from, steps * kUnit, 0});
+    }
+  return reverse;
+}
+
+}  // namespace grove::detail

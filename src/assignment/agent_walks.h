@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The walks of one agent through the tasks that it must or may visit (sequencing/ng_walks.h).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "assignment/route_costs.h"
+#include "model/instance.h"
+#include "sequencing/ng_walks.h"
+
+namespace grove::detail {
+
+// The tasks of an agent and the legs between them. Walks remember up to `remembered` of the tasks
+// that the agent must visit always; these come first.
+struct AgentWalks {
+  // Unit of the costs of legs: 1 / kUnit steps.
+  static constexpr std::int64_t kUnit = 256;
+
+  AgentIndex agent;
+  std::vector<TaskIndex> tasks;  // by stop of `forward`
+  NgStops forward;
+  std::vector<Place> goals;                 // its possible destinations; empty: it ends anywhere
+  std::vector<Time> start_to_goals;         // by position in `goals`; kNever: no path
+  std::vector<std::vector<Time>> to_goals;  // by task and position in `goals`
+
+  // The walks in reverse direction. first_costs: by stop, the cost from the stop to the end. All
+  // legs are possible, because a leg that forward walks leave out can be part of a reverse walk.
+  NgStops reversed(const RouteCosts& costs, const std::vector<std::int64_t>& first_costs) const;
+};
+
+// Legs that are not needed are left out; the proof is at the head of agent_walks.cpp.
+AgentWalks make_agent_walks(const RouteCosts& costs, AgentIndex agent, int neighbors);
+
+}  // namespace grove::detail

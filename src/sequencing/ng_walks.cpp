@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Label correcting, in rounds: round r extends the labels that round r - 1 has improved. A label is
+// dropped if one at the same stop that remembers no other neighbour, and the same always remembered
+// stops, costs no more: each walk that extends the first extends the second, too. (A leg that only
+// labels with some memory make must have an alternative for the others that costs no more.)
+//
+// If labels have no least cost, the parents of some label form a cycle (Cherkassky and Goldberg
+// 1999), which is tested from time to time.
+#include "sequencing/ng_walks.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "model/assert.h"
+
+namespace grove::detail {
+namespace {
+
+constexpr std::int32_t kRoundsPerTest = 8;
+
+}  // namespace
+
+NgStops::Memory NgStops::bits_of(std::int32_t at, std::int32_t stop) const {
+  if (stop < remembered) return Memory{1} << stop;
+  const std::vector<std::int32_t>& near = stops[at].neighbors;
+  const auto found = std::ranges::find(near, stop);
+  return found == near.end() ? 0 : Memory{1} << (remembered + (found - near.begin()));
+}
+
+NgWalks::Outcome NgWalks::find(const NgStops& stops, std::span<const std::int64_t> prizes,
+                               std::int64_t max_effort, const Limits& limits) {
+  GROVE_ASSERT(stops.bits() <= NgStops::kMaxBits, "labels fit in memory");
+  for (const LabelId label : reached_) labels_[label] = {};
+  stops_ = &stops;
+  prizes_ = prizes;
+  labels_.resize(std::max(labels_.size(), stops.stops.size() << stops.bits()));
+  reached_.clear();
+  next_.clear();
+  const std::int64_t end = effort_ + max_effort;
+  for (std::int32_t to = 0; to < std::ssize(stops.stops); ++to)
+    if (stops.stops[to].first < NgStops::kNoWalk)
+      reach(to, stops.bits_of(to, to), stops.stops[to].first, kStart, 0);
+  for (std::int32_t round = 1; !next_.empty(); ++round) {
+    if (effort_ >= end || limits.stop_requested()) return Outcome::kStopped;
+    if (round % kRoundsPerTest == 0 && is_on_cycle(next_.back())) return Outcome::kNoMinimum;
+    std::swap(now_, next_);
+    next_.clear();
+    for (const LabelId from : now_) extend(from, round);
+  }
+  return Outcome::kFound;
+}
+
+void NgWalks::extend(LabelId from, std::int32_t round) {
+  const std::int32_t at = stop(from);
+  const Memory remembered = memory(from);
+  const std::int64_t cost = labels_[from].cost;
+  effort_ += std::ssize(stops_->stops[at].legs);
+  for (const NgStops::Leg& leg : stops_->stops[at].legs) {
+    if ((remembered & stops_->bits_of(at, leg.to)) != 0) continue;
+    if (leg.needed != 0 && (remembered & leg.needed) == 0) continue;
+    reach(leg.to, memory_after(from, leg.to), cost + leg.cost, from, round);
+  }
+}
+
+void NgWalks::reach(std::int32_t stop, Memory memory, std::int64_t cost, LabelId parent,
+                    std::int32_t round) {
+  cost -= prizes_[stop];
+  const LabelId first = stop << stops_->bits();
+  const Memory always = (Memory{1} << stops_->remembered) - 1;
+  const Memory least = (memory & always) | stops_->bits_of(stop, stop);
+  const LabelId at = first | static_cast<LabelId>(memory);
+  Label& label = labels_[at];
+  if (label.cost <= cost || labels_[first | static_cast<LabelId>(least)].cost <= cost) return;
+  if (label.round < 0) reached_.push_back(at);
+  label.cost = cost;
+  label.parent = parent;
+  if (label.round == round) return;
+  label.round = round;
+  next_.push_back(at);
+}
+
+NgWalks::Memory NgWalks::memory_after(LabelId from, std::int32_t to) const {
+  const Memory before = memory(from);
+  const Memory always = (Memory{1} << stops_->remembered) - 1;
+  Memory after = (before & always) | stops_->bits_of(to, to);
+  const std::vector<std::int32_t>& neighbors = stops_->stops[stop(from)].neighbors;
+  for (Memory rest = before >> stops_->remembered; rest != 0; rest &= rest - 1)
+    after |= stops_->bits_of(to, neighbors[std::countr_zero(rest)]);
+  return after;
+}
+
+bool NgWalks::is_on_cycle(LabelId label) const {
+  std::size_t steps = 0;
+  for (; label != kStart && steps <= reached_.size(); ++steps) label = labels_[label].parent;
+  return label != kStart;
+}
+
+}  // namespace grove::detail
