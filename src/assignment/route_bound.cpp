@@ -33,7 +33,7 @@
 
 #include "assignment/agent_walks.h"
 #include "assignment/goal_choice.h"
-#include "model/assert.h"
+#include "model/random.h"
 #include "sequencing/ng_walks.h"
 
 namespace grove::detail {
@@ -47,8 +47,10 @@ constexpr int kFewNeighbors = 3;
 constexpr std::int64_t kMany = 5000;
 constexpr double kFirstFactor = 0.5;  // of the step size by Polyak
 constexpr double kLastFactor = 0.005;
-constexpr double kRetreatFactor = 0.9;  // of the factor, after multipliers without a bound
-constexpr int kPatience = 6;            // steps without progress before the factor is halved
+constexpr double kRetreatFactor = 0.9;    // of the factor, after multipliers without a bound
+constexpr Cost kMaxCost = Cost{1} << 40;  // plans of greater cost are not excluded
+constexpr int kRoundings = 60;            // sets of whole multipliers that are tried
+constexpr int kPatience = 6;              // steps without progress before the factor is halved
 
 }  // namespace
 
@@ -100,11 +102,55 @@ class RouteBound::Relaxation {
       if (find_walks(agent, agent.walks.forward, limits) != NgWalks::Outcome::kFound)
         return std::nullopt;
       const std::int64_t others = best_.bound - least_reduced_cost(agent);
-      const std::int64_t most = (cutoff - 1) * kUnit - others;  // for the agent
+      const std::int64_t most = std::min(cutoff - 1, kMaxCost) * kUnit - others;  // for the agent
       choices.push_back({.visits = {}, .goals = goals_within(agent, most)});
       if (!add_visits_within(agent, most, limits, choices.back().visits)) return std::nullopt;
     }
     return choices;
+  }
+
+  // Local search from the rounded multipliers: some of those whose condition the walks do not meet
+  // change by a step.
+  std::optional<Multipliers> rounded(const Limits& limits) {
+    if (best_.on_visits.empty()) return std::nullopt;
+    on_visits_ = best_.on_visits;
+    on_goals_ = best_.on_goals;
+    for (std::int64_t& multiplier : on_visits_)
+      multiplier = (multiplier + kUnit / 2) / kUnit * kUnit;
+    for (std::int64_t& multiplier : on_goals_)
+      multiplier = (multiplier + kUnit / 2) / kUnit * kUnit;
+    Best best;
+    Random random(0);
+    for (int round = 0; round < kRoundings; ++round) {
+      switch (evaluate(kNoWalk, limits)) {
+        case NgWalks::Outcome::kStopped:
+          return std::nullopt;
+        case NgWalks::Outcome::kNoMinimum:
+          bound_ = 0;
+          break;
+        case NgWalks::Outcome::kFound:
+          break;
+      }
+      if (best.on_visits.empty() || bound_ >= best.bound) {
+        best = {bound_, on_visits_, on_goals_};
+      } else {
+        on_visits_ = best.on_visits;
+        on_goals_ = best.on_goals;
+        evaluate(kNoWalk, limits);
+      }
+      const auto vary = [&](std::int64_t& multiplier, std::int64_t direction) {
+        if (direction == 0 || random.below(4) > 0) return;
+        multiplier = std::max<std::int64_t>(0, multiplier + (direction > 0 ? kUnit : -kUnit));
+      };
+      for (std::size_t i = 0; i < needs_.size(); ++i) vary(on_visits_[i], needs_[i] - visits_[i]);
+      for (std::size_t i = 0; i < places_.size(); ++i) vary(on_goals_[i], uses_[i] - 1);
+    }
+    Multipliers result;
+    for (TaskIndex task = 0; task < instance_.task_count(); ++task)
+      result.on_visits.push_back(static_cast<Time>(best.on_visits[task] / kUnit));
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      result.on_goals.emplace_back(places_[i], static_cast<Time>(best.on_goals[i] / kUnit));
+    return result;
   }
 
  private:
@@ -336,6 +382,10 @@ void RouteBound::improve(std::int64_t max_effort, const Limits& limits) {
 std::optional<std::vector<RouteBound::Choices>> RouteBound::choices_below(Cost cutoff,
                                                                           const Limits& limits) {
   return relaxation_->choices_below(cutoff, limits);
+}
+
+std::optional<RouteBound::Multipliers> RouteBound::rounded(const Limits& limits) {
+  return relaxation_->rounded(limits);
 }
 
 Cost RouteBound::lower_bound() const {

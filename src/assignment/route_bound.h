@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "assignment/routes.h"
@@ -41,6 +42,14 @@ class RouteBound {
     std::vector<Place> goals;       // of Agent::goals
   };
   std::optional<std::vector<Choices>> choices_below(Cost cutoff, const Limits& limits);
+
+  // Multipliers in whole steps, with a bound that is as good as possible. Returns nullopt if there
+  // is no bound yet, or if a limit is reached.
+  struct Multipliers {
+    std::vector<Time> on_visits;                   // by task; 0 for tasks without a choice
+    std::vector<std::pair<Place, Time>> on_goals;  // by possible destination
+  };
+  std::optional<Multipliers> rounded(const Limits& limits);
 
  private:
   class Relaxation;

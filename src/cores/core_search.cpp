@@ -19,6 +19,12 @@
 // becomes a soft literal; it is false only if within_a(e) is, and x_a counts both. The sum of the
 // least costs plus `raised` is therefore a lower bound, after each core.
 //
+// *Prices.* If agents pay for their choices (planning/agent_prices.h), all costs of agents are
+// prices, and the sum of the least costs is reduced by the constant. A plan also costs the prices
+// of the goals that no agent uses. When a model is a plan of paths without conflicts that leaves
+// such goals unused, each unit of their prices becomes a soft literal "the goal is used", so that
+// the sum in (1) contains the false ones.
+//
 // *Groups.* Let S be a set of agents such that each core so far depends on agents of S only, or on
 // none of them. The steps above then prove (1) for the sum over S, with the increases by the cores
 // of S and the soft literals of S: S costs at least that much more than the sum of its least costs.
@@ -63,12 +69,13 @@ constexpr int kRetries = 4;
 
 CoreSearch::CoreSearch(const Problem& problem, const AgentStopsCache& stops, Techniques techniques,
                        std::size_t max_bytes, const Limits& limits, ProofLog* proof,
-                       std::uint64_t seed)
+                       std::uint64_t seed, PricedChoices choices)
     : max_bytes_(max_bytes),
       limits_(limits),
       random_(seed),
       is_shuffled_(seed != 0),
-      model_(problem, stops, techniques, limits, proof) {}
+      model_(problem, stops, techniques, limits, proof, choices.prices),
+      choices_(std::move(choices)) {}
 
 CoreSearch::Outcome CoreSearch::step(Cost cutoff) {
   GROVE_CHECK(cutoff <= cutoff_, "the cutoff never rises");
@@ -161,9 +168,25 @@ CoreSearch::Outcome CoreSearch::use_model() {
     return Outcome::kWorking;
   }
   if (!model_.has_all_paths()) return Outcome::kExhausted;
-  plan_ = model_.plan();
+  if (choices_.prices && add_unused_goals()) return Outcome::kWorking;
+  plan_ = choices_.prices ? choices_.make_plan(model_.counted_paths()) : model_.plan();
   GROVE_CHECK(plan_->cost <= lower_bound_, "a model of all soft literals costs the bound");
   return Outcome::kSolved;
+}
+
+// Adds soft literals for goals that the paths do not use. Returns false if there are none.
+bool CoreSearch::add_unused_goals() {
+  const std::vector<PathModel::UnusedGoal> unused = model_.take_unused_goals();
+  for (const PathModel::UnusedGoal& goal : unused) {
+    goals_.push_back(goal.agents);
+    for (Time i = 0; i < goal.price; ++i) {
+      const Literal literal = model_.solver().new_variable(FormulaKind::kMeets, {});
+      model_.solver().add({-literal, goal.is_used});
+      active_.push_back({.literal = literal, .goal = static_cast<std::int32_t>(goals_.size()) - 1});
+    }
+  }
+  add_new_agents();
+  return !unused.empty();
 }
 
 // The hard clauses, which hold for all plans below the cutoff, have no model.
@@ -254,7 +277,8 @@ CoreSearch::Outcome CoreSearch::relax() {
     const PathModel::Outcome outcome = raise(soft);
     if (outcome == PathModel::Outcome::kWorking) return Outcome::kWorking;
     if (outcome != PathModel::Outcome::kDone) return stopped_or(Outcome::kExhausted);
-  } else if (soft.count + 1 < counts_[soft.totalizer].totalizer.input_count()) {
+  } else if (soft.totalizer >= 0 &&
+             soft.count + 1 < counts_[soft.totalizer].totalizer.input_count()) {
     replacements_.push_back(count_soft(soft.totalizer, soft.count + 1));
   }
   ++core_.next;
@@ -312,6 +336,8 @@ std::vector<AgentIndex> CoreSearch::agents_of(std::span<const Soft> softs) const
   for (const Soft& soft : softs) {
     if (soft.agent >= 0)
       agents.push_back(soft.agent);
+    else if (soft.goal >= 0)
+      agents.insert(agents.end(), goals_[soft.goal].begin(), goals_[soft.goal].end());
     else
       agents.insert(agents.end(), counts_[soft.totalizer].agents.begin(),
                     counts_[soft.totalizer].agents.end());

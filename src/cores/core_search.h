@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -22,6 +23,12 @@
 
 namespace grove::detail {
 
+// Prices of the agents, and a function that makes a plan of their paths. Default: no prices.
+struct PricedChoices {
+  const Prices* prices = nullptr;
+  std::function<Plan(const std::vector<CountedPath>&)> make_plan = {};
+};
+
 // Searches for an optimal plan by core-guided MaxSAT (OLL: Andres et al. 2012; Morgado, Dodaro and
 // Marques-Silva 2014). The proof is at the head of core_search.cpp. One thread at a time.
 // Repeatable: results depend only on the arguments, unless a limit is reached.
@@ -38,7 +45,7 @@ class CoreSearch {
   // `max_bytes`. Searches with different seeds find different cores; 0: agents in their order.
   CoreSearch(const Problem& problem, const AgentStopsCache& stops, Techniques techniques,
              std::size_t max_bytes, const Limits& limits, ProofLog* proof = nullptr,
-             std::uint64_t seed = 0);
+             std::uint64_t seed = 0, PricedChoices choices = {});
 
   // Plans an agent, or calls the SAT solver for a limited number of conflicts. `cutoff`: plans of
   // this cost or more are of no interest; must not rise from call to call.
@@ -50,7 +57,7 @@ class CoreSearch {
   // more than the sum of their least costs. If no core depends on any of these agents, one of the
   // next calls of step() raises the bound by it. Requires is_set_up().
   void add(const GroupExcess& excess);
-  // See CoreComponents::take_excesses().
+  // See CoreComponents::take_excesses(). Requires agents without prices.
   std::vector<GroupExcess> take_excesses() { return components_.take_excesses(); }
 
   // Proven: no plan that costs less than the cutoff of the last step costs less than this.
@@ -67,14 +74,15 @@ class CoreSearch {
 
  private:
   enum class Phase : std::uint8_t { kSetUp, kSolve, kMinimize, kExhaust, kRelax };
-  // An assumption of weight 1: "agent `agent` has at most this excess" or "at most `count` of the
-  // inputs of totalizer `totalizer` are true".
+  // An assumption of weight 1: "agent `agent` has at most this excess", "at most `count` of the
+  // inputs of totalizer `totalizer` are true", or "an agent ends on this goal".
   struct Soft {
     Literal literal = 0;
     AgentIndex agent = -1;
     Time excess = 0;
     std::int32_t totalizer = -1;
     std::size_t count = 0;
+    std::int32_t goal = -1;  // "this goal is used"; an index in goals_
   };
   // A totalizer, and the agents on which its inputs depend.
   struct Count {
@@ -95,6 +103,7 @@ class CoreSearch {
   void raise_by(const GroupExcess& excess);
   Outcome solve();
   Outcome use_model();
+  bool add_unused_goals();
   Outcome minimize();
   Outcome exhaust();
   void start_relaxation();
@@ -119,9 +128,12 @@ class CoreSearch {
   Random random_;
   const bool is_shuffled_;
   PathModel model_;
+  const PricedChoices choices_;
   std::vector<Count> counts_;
-  std::vector<Soft> active_;    // assumed
-  std::vector<Soft> deferred_;  // from relaxed cores; assumed after the next model
+  std::vector<std::vector<AgentIndex>> goals_;  // by goal of a soft literal: the agents that may
+                                                // end there
+  std::vector<Soft> active_;                    // assumed
+  std::vector<Soft> deferred_;                  // from relaxed cores; assumed after the next model
   Core core_;
   std::vector<Soft> replacements_;  // of the literals of core_
   CoreComponents components_;

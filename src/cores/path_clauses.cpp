@@ -13,6 +13,7 @@
 //   node                       -> its presence
 //   satisfies(c) and presence  -> false, if the presence violates c
 //   satisfies(c) and two presences of a move -> false, if c bars the move
+//   counts(s) and final node   -> false, if the walk has not counted s; "not s" in the same way
 //
 // (traversal_clauses.cpp has those of traversals.)
 //
@@ -103,6 +104,8 @@ Literal PathClauses::literal_of(PathGraph::Node node) {
   const Presence presence{graph_.place(node), graph_.time(node), arrival != PathGraph::kOnTheWay};
   known = is_node_presence_ ? new_presence_variable(presence) : new_node_variable(node);
   solver_.add({-known, active_});
+  if (graph_.is_final(node))
+    for (const CountLiteral& by : counts_) restrict_end(by, node);
   if (!presence.is_last || arrival == presence.time) add_to_presence(known, presence);
   return known;
 }
@@ -165,6 +168,23 @@ Literal PathClauses::satisfies(const Constraint& constraint) {
   for (const auto& [presence, of_presence] : presences_.all())
     restrict_presence(constraints_.back(), presence);
   return literal;
+}
+
+Literal PathClauses::counts(int stop, bool counts) {
+  for (const CountLiteral& known : counts_)
+    if (known.stop == stop && known.counts == counts) return known.literal;
+  const auto kind = counts ? ConstraintKind::kStopIs : ConstraintKind::kStopIsNot;
+  const Literal literal = solver_.new_variable(
+      FormulaKind::kMeets, {agent_, kNoCell, stop, 0, kNever, static_cast<std::int64_t>(kind)});
+  counts_.push_back({stop, counts, literal});
+  for (PathGraph::Node node = 0; node < std::ssize(nodes_); ++node)
+    if (nodes_[node] != 0 && graph_.is_final(node)) restrict_end(counts_.back(), node);
+  return literal;
+}
+
+void PathClauses::restrict_end(const CountLiteral& by, PathGraph::Node node) {
+  const bool is_counted = (graph_.stops_left(node) & bit(by.stop)) == 0;
+  if (is_counted != by.counts) solver_.add({-by.literal, -nodes_[node]});
 }
 
 void PathClauses::restrict_presence(const ConstraintLiteral& by, const Presence& presence) {

@@ -21,7 +21,8 @@ namespace grove::detail {
 // The clauses of one agent's paths, with literals for limits on its cost and for constraints on it.
 // *Contract*: each path of the agent defines an assignment that satisfies all these clauses. In it,
 // within(e) is true exactly if the path costs at most least_cost() + e, and satisfies(c) exactly
-// if the path satisfies c. The proof is at the head of path_clauses.cpp. One thread at a time.
+// if the path satisfies c; counts() in the same way. The proof is at the head of path_clauses.cpp.
+// One thread at a time.
 class PathClauses {
  public:
   // All arguments must outlive this object.
@@ -43,6 +44,10 @@ class PathClauses {
   // Literal for "the path satisfies `constraint`", which must not be on the sequence.
   Literal satisfies(const Constraint& constraint);
 
+  // Literal for "the path counts this stop" or, if `counts` is false, "it does not". Neither is the
+  // negation of the other one.
+  Literal counts(int stop, bool counts);
+
   // A walk of the model that the solver has found; nullopt if the model lets the agent cost more
   // than the clauses cover.
   std::optional<std::vector<PathGraph::Node>> walk() const;
@@ -54,6 +59,11 @@ class PathClauses {
     Constraint constraint;
     Literal literal;
   };
+  struct CountLiteral {
+    int stop;
+    bool counts;
+    Literal literal;
+  };
   using Constraints = std::vector<std::size_t>;  // indices in constraints_
 
   Literal literal_of(PathGraph::Node node);
@@ -63,6 +73,7 @@ class PathClauses {
   void add_to_presence(Literal node, const Presence& presence);
   void set_presence(const Presence& presence, Literal literal);
   void add_walk_clauses(PathGraph::Node node);
+  void restrict_end(const CountLiteral& by, PathGraph::Node node);
   void restrict_presence(const ConstraintLiteral& by, const Presence& presence);
   void restrict_move(const ConstraintLiteral& by, const Presence& presence);
   TraversalClauses& traversals(const Constraint& constraint);
@@ -85,6 +96,7 @@ class PathClauses {
   std::vector<ConstraintLiteral> constraints_;
   std::unordered_map<Place, Constraints> constraints_on_;  // by place that they mention
   Constraints rest_bys_;
+  std::vector<CountLiteral> counts_;
   std::vector<TraversalClauses> traversals_;
 };
 

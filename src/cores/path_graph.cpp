@@ -8,8 +8,9 @@
 // last arrival. Before it, the path is a walk on the way: grow() extends the costs to go until they
 // cover all sequences within the cost, and a path that counts each stop as early as possible passes
 // only known stages (mdd.cpp). After it, waits are pointless: without them the agent is on the
-// same place at the same times, forever, does the same tasks, and finishes no later. A node is
-// dropped only if its time plus a lower bound on the remaining cost exceeds the cost.
+// same place at the same times, forever, does the same tasks, and finishes no later. For the same
+// reason an agent that may rest does nothing more, unless it can execute a task on the place. A
+// node is dropped only if its time plus a lower bound on the remaining cost exceeds the cost.
 //
 // *All successors.* The costs to go cover all routes of cost latest_ or less, so if time + distance
 // <= latest_, no unknown route is shorter, and the distance is a lower bound at all later calls
@@ -35,7 +36,8 @@ std::size_t PathGraph::KeyHash::operator()(const Key& key) const {
   std::uint64_t hash = static_cast<std::uint32_t>(key.state) * 0x9e3779b97f4a7c15ULL;
   hash ^= static_cast<std::uint32_t>(key.time) * 0xc2b2ae3d27d4eb4fULL;
   hash ^= static_cast<std::uint32_t>(key.stage) * 0x165667b19e3779f9ULL;
-  hash ^= static_cast<std::uint32_t>(key.arrival + 1) * 0xd6e8feb86659fd93ULL;
+  hash ^= static_cast<std::uint32_t>(2 * (key.arrival + 1) + (key.is_final ? 1 : 0)) *
+          0xd6e8feb86659fd93ULL;
   return hash ^ hash >> 29;
 }
 
@@ -87,6 +89,7 @@ void PathGraph::start() {
 
 void PathGraph::expand(Node node, StageId stage) {
   const Data from = nodes_[node];  // nodes_ will grow
+  if (from.is_final) return;
   const Time then = from.time + 1;
   const bool on_the_way = from.arrival == kOnTheWay;
   bool all = true;
@@ -120,16 +123,44 @@ bool PathGraph::is_foreign_work(State state) const {
 bool PathGraph::reach(State state, StageId stage, Time time, Time arrival) {
   const Time distance = goals_.distance(stage, state);
   if (distance > latest_ - time) return false;
-  // No unknown route is shorter, so later calls come to the same result.
-  if (arrival != kOnTheWay && distance > goals_.stops().longest_finish(world_.place(state)))
-    return true;
+  const Time price =
+      arrival == kOnTheWay ? kNever : goals_.price_of_rest(goals_.stage(stage), state);
+  const bool is_within = price <= latest_ - time;
+  if (is_within) add(state, stage, time, arrival, price);
+  if (may_continue(state, stage, arrival)) add(state, stage, time, arrival, kNever);
+  return is_within || price >= kNever;
+}
+
+// Can the agent do more before it comes to rest? An arrived agent leaves the place no more. No
+// unknown route is shorter than the distance, so later calls of grow() come to the same result.
+// (With prices, the distance does not state how long the agent stays.)
+bool PathGraph::may_continue(State state, StageId stage, Time arrival) const {
+  if (arrival == kOnTheWay) return true;
+  const AgentStops& stops = goals_.stops();
+  const SequenceStages::Stage& s = goals_.stage(stage);
+  if (!stops.has_prices())
+    return goals_.price_of_rest(s, state) >= kNever &&
+           goals_.distance(stage, state) <= stops.longest_finish(world_.place(state));
+  bool has_task = false;
+  for_each_stop(s.next, [&](int stop) {
+    has_task |= stops.takes_time(stop) && stops.place(stop) == world_.place(state);
+  });
+  return has_task;
+}
+
+// Adds a node, final if `price` is not kNever, and makes it a successor of the current one.
+void PathGraph::add(State state, StageId stage, Time time, Time arrival, Time price) {
   const std::int32_t number = stage_number(stage);
-  const auto [at, is_new] = numbers_.try_emplace({state, number, time, arrival}, count());
+  const bool is_final = price < kNever;
+  const auto [at, is_new] = numbers_.try_emplace({state, number, time, arrival, is_final}, count());
   const Node node = at->second;
   if (is_new) {
-    const bool is_final = arrival != kOnTheWay && goals_.is_rest(goals_.stage(stage), state);
-    nodes_.push_back(
-        {.state = state, .stage = number, .time = time, .arrival = arrival, .is_final = is_final});
+    nodes_.push_back({.state = state,
+                      .stage = number,
+                      .time = time,
+                      .arrival = arrival,
+                      .price = is_final ? price : 0,
+                      .is_final = is_final});
     is_queued_.push_back(0);
   }
   if (is_queued_[node] == 0) {
@@ -137,7 +168,6 @@ bool PathGraph::reach(State state, StageId stage, Time time, Time arrival) {
     queue_.emplace_back(node, stage);
   }
   successors_.push_back(node);
-  return true;
 }
 
 std::int32_t PathGraph::stage_number(StageId stage) {
@@ -171,7 +201,7 @@ PathGraph::Position PathGraph::position(Node node) const {
 void PathGraph::find_excesses() {
   for (std::size_t i = queue_.size(); i-- > 0;) {
     Data& node = nodes_[queue_[i].first];
-    Time excess = node.is_final ? node.time - least_cost_ : kNever;
+    Time excess = node.is_final ? node.time + node.price - least_cost_ : kNever;
     for (const Node next : successors(queue_[i].first))
       excess = std::min(excess, nodes_[next].excess);
     GROVE_ASSERT(excess >= 0, "no walk costs less than the least cost");

@@ -17,10 +17,10 @@ namespace grove::detail {
 
 // Layered graph over (state, stage, time), of an agent without constraints. A node is either *on
 // the way*, or *arrived*: the agent has made its last arrival on the place and stays there forever.
-// A walk from a start to a final node is a path; its cost is the time of the final node. Every path
-// that does not wait after its last arrival is a walk. The excess of a node is the least cost of a
-// walk through it, minus the least cost of all walks. Grows on demand; node numbers do not change.
-// One thread at a time.
+// A walk from a start to a final node is a path; its cost is the time of the final node, plus the
+// price of resting there (AgentStops). Every path that does not wait after its last arrival is a
+// walk. The excess of a node is the least cost of a walk through it, minus the least cost of all
+// walks. Grows on demand; node numbers do not change. One thread at a time.
 class PathGraph {
  public:
   using Node = std::int32_t;
@@ -53,7 +53,11 @@ class PathGraph {
   // The time of the last arrival on the place; kOnTheWay if the agent will leave the place.
   Time arrival(Node node) const { return nodes_[node].arrival; }
   Time excess(Node node) const { return nodes_[node].excess; }
+  // A final node has no successors.
   bool is_final(Node node) const { return nodes_[node].is_final; }
+  // The stops that the agent has not counted.
+  StopSet stops_left(Node node) const { return left_of_stages_[nodes_[node].stage]; }
+  StopSet all_stops() const { return goals_.stops().all(); }
   // True if no two nodes have the same place, time and arrival.
   bool has_one_node_per_presence() const {
     return world_.kind(goals_.stops().start()) == 0 && goals_.stops().count() == 0;
@@ -89,6 +93,7 @@ class PathGraph {
     std::int32_t stage;
     Time time;
     Time arrival;
+    bool is_final;
     friend bool operator==(const Key&, const Key&) = default;
   };
   struct KeyHash {
@@ -99,6 +104,7 @@ class PathGraph {
     std::int32_t stage;  // as Key::stage
     Time time;
     Time arrival;
+    Time price = 0;  // of a final node
     Time excess = kNever;
     std::int32_t first = 0;  // range in successors_
     std::int32_t end = 0;
@@ -110,6 +116,8 @@ class PathGraph {
   void expand(Node node, StageId stage);
   // Returns false if the node might be added by a later call of grow().
   bool reach(State state, StageId stage, Time time, Time arrival);
+  bool may_continue(State state, StageId stage, Time arrival) const;
+  void add(State state, StageId stage, Time time, Time arrival, Time price);
   bool is_executing(State state) const;
   bool is_foreign_work(State state) const;
   std::int32_t stage_number(StageId stage);

@@ -15,20 +15,27 @@
 // excludes, for all i + j + ... = k - 1, that a costs at most i more, b at most j more, and so on.
 // Each of these clauses holds by itself, so some of them may be left out.
 //
+// *Prices.* Each task is counted as often as its need says, and a goal with a price that is used
+// has an agent that comes to rest there. These conditions are clauses over counts_a(s), "not s" and
+// satisfies(RestBy) with time kNever, and hold for the plans that Prices describes.
+//
 // *Agents that are not needed.* solve() assumes that the agents on which the assumptions do not
 // depend are not active, so that the solver assigns their literals by propagation. *Claim: this
 // does not change whether there is a model.* *Proof.* Change a model as follows for each such
 // agent: within(e), all nodes and presences, and the literals that count its presences
 // (place_conflicts, traversal_clauses) become false, satisfies(RestBy) false, the other
-// satisfies(c) true, and the outputs of totalizers over its within(e) true, which no assumption
-// denies. A clause that requires within(e) or satisfies(RestBy) of the agent could be violated: the
-// first are only those of limit(), whose agents are always needed, and a split has RestBy only
-// together with NoRestBy of the same agent, which is true. (Certificates do not contain this
-// argument. With a proof, a refutation that uses such an assumption is repeated without it.)
+// satisfies(c) and counts(s) true, and the outputs of totalizers over its within(e) true, which no
+// assumption denies. "The goal is used" becomes false, unless an assumption depends on it; then all
+// agents that may end there are needed. A clause that requires within(e) or satisfies(RestBy) of
+// the agent could be violated: the first are only those of limit(), whose agents are always needed,
+// and a split has RestBy only together with NoRestBy of the same agent, which is true.
+// (Certificates do not contain this argument. With a proof, a refutation that uses such an
+// assumption is repeated without it.)
 #include "cores/path_model.h"
 
 #include <algorithm>
 
+#include "cores/totalizer.h"
 #include "model/assert.h"
 #include "model/effort.h"
 #include "search/splits.h"
@@ -43,28 +50,29 @@ constexpr int kNodesPerStep = 10'000;                    // of grow()
 }  // namespace
 
 PathModel::PathModel(const Problem& problem, const AgentStopsCache& stops, Techniques techniques,
-                     const Limits& limits, ProofLog* proof)
+                     const Limits& limits, ProofLog* proof, const Prices* prices)
     : problem_(problem),
       techniques_(techniques),
       limits_(limits),
+      prices_(prices),
+      need_clauses_(prices ? prices->needs.size() : 0),
+      is_goal_returned_(prices ? prices->goals.size() : 0),
       stops_(stops),
       low_level_(problem.instance.world()),
       finder_(problem.instance.world(), problem.instance.may_follow()),
       first_paths_(problem.instance.world()),
       solver_(limits, proof),
-      paths_(static_cast<std::size_t>(problem.instance.agent_count())) {}
+      paths_(static_cast<std::size_t>(problem.instance.agent_count())),
+      least_sum_(prices ? -prices->constant : 0) {
+  GROVE_CHECK(proof == nullptr || prices == nullptr, "proofs do not contain prices");
+}
 
 PathModel::Outcome PathModel::plan_next_agent() {
   const auto index = static_cast<AgentIndex>(agents_.size());
   AgentStops& stops = stops_.of(index);
-  SequenceStages goals(stops, SequenceClass{});
-  Path path;
-  const std::int64_t labels = low_level_.expanded();
-  const PathOutcome outcome = low_level_.find(goals, PathQuery{}, limits_, path);
-  work_ += low_level_.expanded() - labels + effort::kUnitsPerCall;
-  if (outcome != PathOutcome::kFound)
-    return limits_.stop_requested() ? Outcome::kStopped : Outcome::kTooLarge;
-  Agent agent{.graph = std::make_unique<PathGraph>(stops, static_cast<Time>(path.size()) - 1)};
+  const std::optional<Time> least = least_cost(stops);
+  if (!least) return limits_.stop_requested() ? Outcome::kStopped : Outcome::kTooLarge;
+  Agent agent{.graph = std::make_unique<PathGraph>(stops, *least)};
   if (const Outcome grown = grow(*agent.graph, 0, kMaxNodes); grown != Outcome::kDone) return grown;
   agent.walk = walk_with_fewest_conflicts(*agent.graph);
   least_sum_ += agent.graph->least_cost();
@@ -72,6 +80,29 @@ PathModel::Outcome PathModel::plan_next_agent() {
   first_paths_.add(paths_[index]);
   agents_.push_back(std::move(agent));
   return Outcome::kDone;
+}
+
+// The least cost of a path, or its least price; nullopt: there is no path, or it is not known.
+std::optional<Time> PathModel::least_cost(AgentStops& stops) {
+  work_ += effort::kUnitsPerCall;
+  SequenceStages goals(stops, SequenceClass{});
+  if (!stops.has_prices()) {
+    Path path;
+    const std::int64_t labels = low_level_.expanded();
+    const PathOutcome outcome = low_level_.find(goals, PathQuery{}, limits_, path);
+    work_ += low_level_.expanded() - labels;
+    if (outcome != PathOutcome::kFound) return std::nullopt;
+    return static_cast<Time>(path.size()) - 1;
+  }
+  for (;;) {  // the distance is exact for all prices below the outside bound
+    const auto first = goals.first_stage();
+    const Time outside_bound = goals.cost_to_go().outside_bound();
+    const Time price =
+        first == SequenceStages::kOutside ? kNever : goals.distance(first, stops.start());
+    if (price < outside_bound) return price;
+    if (outside_bound >= kNever || !goals.cost_to_go().extend(outside_bound, limits_))
+      return std::nullopt;
+  }
 }
 
 // Of the walks of least cost, one with the fewest conflicts with the first paths of the agents
@@ -202,7 +233,97 @@ std::int64_t PathModel::add_conflicts() {
     for (const Split& split : splits) add_split(conflict, split);
   }
   path_conflicts_ += std::ssize(conflicts);
-  return std::ssize(conflicts);
+  return std::ssize(conflicts) + add_needs();
+}
+
+// The number of agents that count the task. An agent that may cost more than the clauses cover has
+// no path; it counts if `without_path` is true.
+int PathModel::visits_of(const Prices::Need& need, bool without_path) const {
+  return static_cast<int>(std::ranges::count_if(need.visits, [&](const Prices::Visit& visit) {
+    const Agent& agent = agents_[visit.agent];
+    if (!agent.has_path) return without_path;
+    return (agent.graph->stops_left(agent.walk.back()) & bit(visit.stop)) == 0;
+  }));
+}
+
+// Adds clauses for tasks that the paths visit too seldom or too often. Returns their number.
+std::int64_t PathModel::add_needs() {
+  std::int64_t added = 0;
+  for (std::size_t i = 0; i < need_clauses_.size(); ++i) {
+    const Prices::Need& need = prices_->needs[i];
+    NeedClauses& known = need_clauses_[i];
+    const auto literals = [&](bool counts) {
+      std::vector<Literal> result;
+      for (const Prices::Visit& visit : need.visits)
+        result.push_back(-clauses_of(visit.agent).counts(visit.stop, counts));
+      return result;
+    };
+    if (!known.at_least && visits_of(need, true) < need.count) {
+      known.at_least = true;
+      ++added;
+      add_at_most(literals(true), need.visits.size() - static_cast<std::size_t>(need.count));
+    }
+    if (!known.at_most && need.is_exact && visits_of(need, false) > need.count) {
+      known.at_most = true;
+      ++added;
+      add_at_most(literals(false), static_cast<std::size_t>(need.count));
+    }
+  }
+  return added;
+}
+
+void PathModel::add_at_most(std::vector<Literal> literals, std::size_t count) {
+  if (count == 0) {
+    for (const Literal literal : literals) solver_.add({-literal});
+  } else if (count + 1 == literals.size()) {
+    for (Literal& literal : literals) literal = -literal;
+    solver_.add(literals);
+  } else if (count < literals.size()) {
+    Totalizer totalizer(solver_, literals);
+    solver_.add({-totalizer.at_least(count + 1)});
+  }
+}
+
+std::vector<PathModel::UnusedGoal> PathModel::take_unused_goals() {
+  std::vector<UnusedGoal> unused;
+  for (std::size_t i = 0; i < is_goal_returned_.size(); ++i) {
+    const AgentPrices::Goal& goal = prices_->goals[i];
+    const auto ends_there = [&](const Agent& agent) {
+      return agent.graph->place(agent.walk.back()) == goal.place;
+    };
+    if (is_goal_returned_[i] || std::ranges::any_of(agents_, ends_there)) continue;
+    is_goal_returned_[i] = true;
+    UnusedGoal found{goal.price, solver_.new_variable(FormulaKind::kMeets, {}), {}};
+    std::vector<Literal> clause{-found.is_used};
+    for (AgentIndex agent = 0; agent < std::ssize(agents_); ++agent) {
+      const std::optional<AgentPrices>& prices = prices_->agents[agent];
+      if (!prices || std::ranges::find(prices->goals, goal.place, &AgentPrices::Goal::place) ==
+                         prices->goals.end())
+        continue;
+      found.agents.push_back(agent);
+      clause.push_back(
+          clauses_of(agent).satisfies({goal.place, kNoCell, 0, kNever, ConstraintKind::kRestBy}));
+    }
+    solver_.add(clause);
+    unused.push_back(std::move(found));
+  }
+  return unused;
+}
+
+std::vector<CountedPath> PathModel::counted_paths() const {
+  std::vector<CountedPath> paths;
+  for (const Agent& agent : agents_) {
+    CountedPath path{path_of(agent), {}};
+    StopSet left = agent.graph->all_stops();
+    for (const PathGraph::Node node : agent.walk) {
+      const StopSet now = agent.graph->stops_left(node);
+      for_each_stop(left & ~now,
+                    [&](int stop) { path.counted.emplace_back(agent.graph->time(node), stop); });
+      left = now;
+    }
+    paths.push_back(std::move(path));
+  }
+  return paths;
 }
 
 void PathModel::prefer_paths() {

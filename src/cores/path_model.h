@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "cores/sat_solver.h"
 #include "model/limits.h"
 #include "model/plan.h"
+#include "planning/agent_prices.h"
 #include "planning/agent_stops_cache.h"
 #include "planning/conflict_avoidance_table.h"
 #include "planning/free_order_sipp.h"
@@ -38,14 +40,15 @@ class PathModel {
     kStopped,   // a limit was reached
   };
 
-  // All arguments must outlive this object, except `stops`, which is copied.
+  // All arguments must outlive this object, except `stops`, which is copied. `prices`: those of
+  // `stops`; nullptr: none. Prices cannot be combined with a proof.
   PathModel(const Problem& problem, const AgentStopsCache& stops, Techniques techniques,
-            const Limits& limits, ProofLog* proof = nullptr);
+            const Limits& limits, ProofLog* proof = nullptr, const Prices* prices = nullptr);
 
   // Plans the next agent. Must be called until is_complete(), before all functions that follow.
   Outcome plan_next_agent();
   bool is_complete() const { return std::ssize(agents_) == problem_.instance.agent_count(); }
-  // Sum of the agents' least costs.
+  // Sum of the agents' least costs. With prices: of their least prices, minus Prices::constant.
   Cost least_sum() const { return least_sum_; }
 
   SatSolver& solver() { return solver_; }
@@ -61,18 +64,31 @@ class PathModel {
   // agents keep a path of least cost.
   std::vector<AgentIndex> take_new_agents() { return std::exchange(new_agents_, {}); }
 
+  // With prices, after a model without conflicts: the goals with a price that no path uses, without
+  // those that were returned before. Each of them adds its price to the cost of the plan, unless
+  // `is_used` is true, a literal that depends on `agents`.
+  struct UnusedGoal {
+    Time price;
+    Literal is_used;
+    std::vector<AgentIndex> agents;
+  };
+  std::vector<UnusedGoal> take_unused_goals();
+
   // Solves under assumptions, which depend on the agents `needed` only.
   SatSolver::Result solve(std::vector<Literal> assumptions, std::span<const AgentIndex> needed,
                           int max_conflicts);
-  // After kSatisfiable: reads the paths of the model. Adds clauses for their conflicts and returns
-  // the number of conflicts.
+  // After kSatisfiable: reads the paths of the model. Adds clauses for their conflicts, and with
+  // prices for visits that are missing or too many, and returns the number of conflicts.
   std::int64_t add_conflicts();
   // Decisions of the solver try the paths of the model that was read last first.
   void prefer_paths();
   // True if the model that was read last has a path for each agent.
   bool has_all_paths() const;
-  // The plan of these paths. Requires has_all_paths(), and that they have no conflicts.
+  // The plan of these paths. Requires has_all_paths(), that they have no conflicts, and agents
+  // without prices.
   Plan plan() const;
+  // The same paths, by AgentIndex, with the stops that they count.
+  std::vector<CountedPath> counted_paths() const;
 
   // Numbers of conflicts of the SAT solver, and of conflicts of paths that became clauses.
   std::int64_t sat_conflicts() const { return solver_.conflicts(); }
@@ -90,6 +106,16 @@ class PathModel {
     bool is_limited = false;  // by limit()
   };
 
+  // Which clauses on the visits of a task, or on a goal, exist?
+  struct NeedClauses {
+    bool at_least = false;
+    bool at_most = false;
+  };
+
+  std::optional<Time> least_cost(AgentStops& stops);
+  int visits_of(const Prices::Need& need, bool without_path) const;
+  std::int64_t add_needs();
+  void add_at_most(std::vector<Literal> literals, std::size_t count);
   Outcome grow(PathGraph& graph, Time excess, std::size_t max_visits);
   std::vector<PathGraph::Node> walk_with_fewest_conflicts(const PathGraph& graph) const;
   PathClauses& clauses_of(AgentIndex agent);
@@ -100,6 +126,9 @@ class PathModel {
   const Problem& problem_;
   const Techniques techniques_;
   const Limits& limits_;
+  const Prices* const prices_;
+  std::vector<NeedClauses> need_clauses_;  // by index in Prices::needs
+  std::vector<bool> is_goal_returned_;     // by index in Prices::goals
   AgentStopsCache stops_;
   FreeOrderSipp low_level_;
   ConflictFinder finder_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string>
@@ -17,6 +18,7 @@
 #include "engine/adaptations.h"
 #include "engine/checkpoint.h"
 #include "engine/merged_observer.h"
+#include "engine/priced_search.h"
 #include "engine/restriction.h"
 #include "model/choices.h"
 #include "planning/problem.h"
@@ -25,11 +27,12 @@ namespace grove::detail {
 namespace {
 
 // Of the time that is left: for the search of the first assignment, and of each other one.
-constexpr double kFirstShare = 0.5;
+constexpr double kFirstShare = 0.2;
 constexpr double kOtherShare = 0.125;
 // Effort of the Lagrangian bound (about 1 s), and its share of the time at most.
 constexpr std::int64_t kBoundEffort = 150'000'000;
 constexpr double kBoundShare = 0.2;
+constexpr std::int64_t kPricedEffort = 2'000'000;  // per further assignment
 constexpr int kMaxFailures = 200;  // assignments in succession that lead to no cheaper plan
 
 Solution infeasible(const SolveOptions& options, const std::string& reason, RunObserver& observer) {
@@ -71,43 +74,109 @@ bool is_within(const Solution& solution, Omega omega) {
   return solution.plan && omega.accepts(solution.plan->cost, solution.lower_bound);
 }
 
-// Searches one assignment after the other, as long as a further one can lead to a cheaper plan.
+// Searches one assignment after the other for plans, and all assignments at once for a bound. Ends
+// when the search over all assignments is over, or is not possible, and no further assignment leads
+// to a cheaper plan.
 class ChoicesRun {
  public:
-  ChoicesRun(const Instance& instance, const SolveOptions& options, Cost bound,
-             const Limits& limits, MergedObserver& merged)
-      : instance_(instance), options_(options), bound_(bound), limits_(limits), merged_(merged) {}
+  ChoicesRun(const Instance& instance, const SolveOptions& options, const Limits& limits,
+             MergedObserver& merged)
+      : instance_(instance), options_(options), limits_(limits), merged_(merged) {}
 
-  Solution run(AssignmentSearch& assignments, const Assignment& first) {
-    Solution best = solve_one(first, kFirstShare);
-    for (int failures = 0;
-         failures < kMaxFailures && !limits_.stop_requested() && !is_within(best, options_.omega);
-         ++failures) {
-      const Cost cost = best.plan ? best.plan->cost : kInfiniteCost;
-      const auto other = assignments.next(cost, limits_);
-      if (!other) break;
-      best = merged_result(best, solve_one(*other, kOtherShare));
-      if (best.plan && best.plan->cost < cost) failures = 0;
+  Solution run(AssignmentSearch& assignments, const Assignment& first, RouteBound& routes,
+               Cost bound) {
+    bound_ = bound;
+    best_ = solve_one(first, kFirstShare);
+    int failures = 0;
+    bool has_assignment = true;
+    while (!limits_.stop_requested() && !is_within(best_, options_.omega)) {
+      const bool has_priced = search_priced(routes);
+      if (is_within(best_, options_.omega)) break;
+      has_assignment = has_assignment && failures < kMaxFailures;
+      if (!has_priced && !has_assignment) break;
+      if (!has_assignment) continue;
+      const auto other = assignments.next(cost(), limits_);
+      has_assignment = other.has_value();
+      if (!other) continue;
+      const Cost before = cost();
+      best_ = merged_result(best_, solve_one(*other, kOtherShare));
+      failures = cost() < before ? 0 : failures + 1;
     }
-    if (!limits_.stop_requested()) best.stats.texts.erase("stopped_by");
-    if (!is_within(best, options_.omega))
-      best.stats.texts["remark"] = fmt::format(
-          "assignments searched: {}; the lower bound is for all assignments", searched_);
-    return best;
+    return finish();
   }
 
  private:
+  Cost cost() const { return best_.plan ? best_.plan->cost : kInfiniteCost; }
+
   Solution solve_one(const Assignment& assignment, double share) {
     ++searched_;
     const Limits part = part_of(limits_, options_, share);
     return solve_restriction(restriction(instance_, assignment, bound_), options_, part, merged_);
   }
 
+  // Returns false if the search over all assignments is over, or is not possible.
+  bool search_priced(RouteBound& routes) {
+    if (!priced_ && cost() < priced_from_) {
+      priced_from_ = cost();
+      priced_ = PricedSearch::make(instance_, routes, cost(), options_, limits_);
+    }
+    if (!priced_) return false;
+    const bool is_open = priced_->run(cost(), kPricedEffort);
+    use_priced();
+    if (!is_open) end_priced();
+    return is_open;
+  }
+
+  void use_priced() {
+    const Cost proven = std::min(priced_->lower_bound(), cost());
+    if (proven >= kInfiniteCost) return;  // there is no plan, but limits may have been reached
+    const bool is_news = proven > bound_;
+    bound_ = std::max(bound_, proven);
+    best_.lower_bound = bound_;
+    Progress progress{.lower_bound = bound_, .incumbent = cost()};
+    merged_.begin_search();
+    if (is_news) {
+      merged_.outside_bound(ComponentId::kCores);
+      merged_.event(RunEvent::kBound, progress);
+    }
+    if (const std::optional<Plan>& plan = priced_->plan(); plan && plan->cost < cost()) {
+      best_.plan = plan;
+      progress.incumbent = plan->cost;
+      progress.lower_bound = bound_ = std::max(bound_, std::min(priced_->lower_bound(), cost()));
+      merged_.incumbent(*plan, PlanSource::kCores, progress);
+      merged_.event(RunEvent::kIncumbent, progress);
+    }
+    best_.lower_bound = bound_;
+    best_.status = status_of(cost(), bound_, options_.omega);
+  }
+
+  void end_priced() {
+    Counters counters;
+    priced_->add_counts(counters);
+    add(counters, best_.stats.counts);
+    priced_.reset();
+  }
+
+  Solution finish() {
+    if (priced_) end_priced();
+    if (!limits_.stop_requested() || is_within(best_, options_.omega))
+      best_.stats.texts.erase("stopped_by");
+    if (!is_within(best_, options_.omega))
+      best_.stats.texts["remark"] = fmt::format(
+          "assignments searched: {}; the lower bound is for all assignments", searched_);
+    else
+      best_.stats.texts.erase("remark");
+    return std::move(best_);
+  }
+
   const Instance& instance_;
   const SolveOptions& options_;
-  const Cost bound_;
   const Limits& limits_;
   MergedObserver& merged_;
+  Cost bound_ = 0;  // for all assignments
+  Solution best_;
+  std::unique_ptr<PricedSearch> priced_;
+  Cost priced_from_ = kInfiniteCost + 1;  // the cutoff with which it was made last
   int searched_ = 0;
 };
 
@@ -125,7 +194,7 @@ Solution assign_and_solve(const Instance& instance, const SolveOptions& options,
   routes.improve(kBoundEffort, part_of(limits, options, kBoundShare));
   bound = std::max(bound, routes.lower_bound());
   merged.note("Assigns the tasks and goals by insertion; the lower bound is for all assignments.");
-  return ChoicesRun(instance, options, bound, limits, merged).run(assignments, *first);
+  return ChoicesRun(instance, options, limits, merged).run(assignments, *first, routes, bound);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "planning/agent_prices.h"
 #include "planning/sequence_stages.h"
 
 namespace grove::detail {
@@ -13,13 +14,20 @@ namespace grove::detail {
 // many tasks are large, so all searches of one thread should share one cache. One thread at a time.
 class AgentStopsCache {
  public:
-  // `instance` and `distances` must outlive this object.
-  AgentStopsCache(const Instance& instance, const DistanceFields& distances)
-      : instance_(instance), distances_(distances), stops_(instance.agent_count()) {}
+  // All arguments must outlive this object. `prices`: nullptr if the agents have none.
+  AgentStopsCache(const Instance& instance, const DistanceFields& distances,
+                  const Prices* prices = nullptr)
+      : instance_(instance),
+        distances_(distances),
+        prices_(prices),
+        stops_(instance.agent_count()) {}
 
   // Copy for another thread. Shares the data that `other` has computed so far.
   AgentStopsCache(const AgentStopsCache& other)
-      : instance_(other.instance_), distances_(other.distances_), stops_(other.stops_.size()) {
+      : instance_(other.instance_),
+        distances_(other.distances_),
+        prices_(other.prices_),
+        stops_(other.stops_.size()) {
     for (std::size_t agent = 0; agent < stops_.size(); ++agent)
       if (other.stops_[agent]) {
         stops_[agent] = std::make_unique<AgentStops>(*other.stops_[agent]);
@@ -29,13 +37,17 @@ class AgentStopsCache {
 
   AgentStops& of(AgentIndex agent) {
     auto& stops = stops_[agent];
-    if (!stops) stops = std::make_unique<AgentStops>(instance_, distances_, agent);
+    if (!stops && prices_ && prices_->agents[agent])
+      stops = std::make_unique<AgentStops>(instance_, distances_, agent, *prices_->agents[agent]);
+    else if (!stops)
+      stops = std::make_unique<AgentStops>(instance_, distances_, agent);
     return *stops;
   }
 
  private:
   const Instance& instance_;
   const DistanceFields& distances_;
+  const Prices* prices_;
   std::vector<std::unique_ptr<AgentStops>> stops_;  // by AgentIndex
 };
 

@@ -61,12 +61,39 @@
 #include "model/assert.h"
 #include "sequencing/cost_matrix.h"
 #include "sequencing/direct_legs.h"
+#include "sequencing/optional_stops_dag.h"
 
 namespace grove::detail {
 namespace {
 
 bool holds(StopSet set, int stop) {
   return (set & bit(stop)) != 0;
+}
+
+// Within a task execution, which has no breaks?
+bool is_executing(const World& world, State state) {
+  return world.is_working(state) && !world.work(state).completed;
+}
+
+// By state: the least sum of the distance to a goal and its price.
+DistanceField prices_to_goals(const World& world, std::span<const AgentPrices::Goal> goals) {
+  std::vector<std::vector<State>> by_price(1);
+  DistanceField prices(static_cast<std::size_t>(world.state_count()), kNever);
+  for (const AgentPrices::Goal& goal : goals) {
+    by_price.resize(std::max<std::size_t>(by_price.size(), goal.price + 1));
+    world.for_each_state(goal.place, [&](State state) {
+      if (!is_executing(world, state)) by_price[goal.price].push_back(state);
+    });
+  }
+  for (std::size_t price = 0; price < by_price.size(); ++price)
+    for (std::size_t i = 0; i < by_price[price].size(); ++i) {
+      const State state = by_price[price][i];
+      if (prices[state] <= static_cast<Time>(price)) continue;
+      prices[state] = static_cast<Time>(price);
+      by_price.resize(std::max(by_price.size(), price + 2));
+      for (const State before : world.moves_to(state)) by_price[price + 1].push_back(before);
+    }
+  return prices;
 }
 
 // Returns the set of the stops of a prefix.
@@ -130,6 +157,38 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
   stop_at_ = stops_of_states(
       instance, distances.array(ArrayKind::kStopsOfStates, static_cast<std::size_t>(agent)));
   if (!instance.rests_on_last_stop(agent)) to_rest_ = distances.to_rest(agent);
+}
+
+AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent,
+                       AgentPrices prices)
+    : AgentStops(instance, distances, agent) {
+  GROVE_CHECK(kind_ == 0 && std::ssize(prices.skip) == count(),
+              "an agent with prices turns freely, and each of its stops has a price");
+  for (int stop = 0; stop < count(); ++stop)
+    if (prices.skip[stop] > 0 && prices.skip[stop] < kNever) optional_ |= bit(stop);
+  if (prices.rests_anywhere)
+    prices_to_rest_ = std::make_shared<const DistanceField>(world_->state_count(), 0);
+  else if (!prices.goals.empty())
+    prices_to_rest_ = std::make_shared<const DistanceField>(prices_to_goals(*world_, prices.goals));
+  if (prices_to_rest_) to_rest_ = DistanceView(*prices_to_rest_);
+  CostMatrix matrix = cost_to_go_.matrix();
+  for (int stop = 0; stop < count() && to_rest_; ++stop)
+    matrix.cost(stop, count()) = min_distance_from(*world_, places_[stop], kind_, to_rest_);
+  cost_to_go_ = CostToGo::with_prices(std::move(matrix), prices.skip);
+  prices_ = std::make_shared<const AgentPrices>(std::move(prices));
+}
+
+Time AgentStops::price_of_rest(State state) const {
+  if (is_executing(*world_, state)) return kNever;
+  if (!prices_ || prices_->goals.empty()) return to_rest_[state] == 0 ? 0 : kNever;
+  const auto goal =
+      std::ranges::find(prices_->goals, world_->place(state), &AgentPrices::Goal::place);
+  return goal != prices_->goals.end() ? goal->price : kNever;
+}
+
+Time AgentStops::price_without(StopSet left) const {
+  if (left == 0) return 0;
+  return prices_ ? detail::price_without(prices_->skip, left) : kNever;
 }
 
 std::shared_ptr<const std::int8_t[]> AgentStops::stops_of_states(const Instance& instance,
@@ -272,12 +331,13 @@ SequenceStages::StageId SequenceStages::make_stage(StopSet left, StopSet rests) 
   if (const std::uint32_t known = index.find(left); known != StopSetIndex::kAbsent)
     return static_cast<StageId>(known);
 
-  Stage stage{.left = left, .next = next_of(left), .rests = rests};
+  Stage stage{
+      .left = left, .price = stops_.price_without(left), .next = next_of(left), .rests = rests};
   GROVE_ASSERT((left & ~free_) == 0 || (free_ & ~left) == 0,
                "stops are counted in the order of the prefix");
   stage.may_skip = rest_is_not_first_ && left == free_ && std::popcount(first_free_) > 1;
   add_onward(stage);
-  if (left != 0 && stage.count == 0) return kOutside;
+  if (stage.count == 0 && stage.price >= kNever) return kOutside;
   const auto id = static_cast<StageId>(stages_.size());
   index.insert(left, static_cast<std::uint32_t>(id));
   stages_.push_back(stage);

@@ -15,6 +15,7 @@
 #include "model/distance_field.h"
 #include "model/instance.h"
 #include "model/plan.h"
+#include "planning/agent_prices.h"
 #include "sequencing/cost_to_go.h"
 #include "sequencing/rtsp.h"
 #include "sequencing/stop_set_index.h"
@@ -62,6 +63,10 @@ class AgentStops {
   // `instance` and `distances` must outlive this object. If the distances are in shared memory, the
   // large arrays are there, too.
   AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent);
+  // As above, for an agent that pays for its choices. The costs of all paths, to rest and to go are
+  // then prices. Requires an agent that turns freely.
+  AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent,
+             AgentPrices prices);
 
   const Instance& instance() const { return *instance_; }
   AgentIndex agent() const { return agent_; }
@@ -93,9 +98,17 @@ class AgentStops {
   // Distance from a state to a port, or to a stop.
   Time to_port(State state, int port) const { return ports_.to_port(state, port); }
   Time distance(State state, int stop) const { return ports_.to_stop(state, stop); }
-  // Distance from a state to the nearest state in which the agent may rest. Requires
-  // !rests_on_last_stop().
+  // Distance from a state to the nearest state in which the agent may rest. With prices: the least
+  // sum of this distance and the price of the goal. Requires !rests_on_last_stop().
   Time to_rest(State state) const { return to_rest_[state]; }
+  // The price for resting in this state, apart from stops; kNever: it may not rest there. 0 without
+  // prices. Requires !rests_on_last_stop().
+  Time price_of_rest(State state) const;
+  bool has_prices() const { return prices_ != nullptr; }
+  // The price for leaving out all stops of `left`; kNever: it must visit one of them.
+  Time price_without(StopSet left) const;
+  // Stops that the agent may leave out at a price above 0.
+  StopSet optional() const { return optional_; }
   // Upper bound on the distance from port `from` to port `to`; see PortDistances.
   Time longest_leg(int from, int to) const { return ports_.longest_leg(from, to); }
   // Upper bound on the turning time, in steps, from a state on a stop to the state in which the
@@ -103,7 +116,7 @@ class AgentStops {
   // per stop, any base state.
   Time turn(State state, int port) const;
 
-  // Costs to go over all sequences, not only those of a class.
+  // Costs to go, or prices to go, over all sequences, not only those of a class.
   const CostToGo& cost_to_go() const { return cost_to_go_; }
   CostToGo& cost_to_go() { return cost_to_go_; }
 
@@ -128,6 +141,9 @@ class AgentStops {
   StopSet work_stops_ = 0;
   std::shared_ptr<const std::int8_t[]> stop_at_;  // by state; owns nothing if the array is shared
   DistanceView to_rest_;
+  std::shared_ptr<const AgentPrices> prices_;            // nullptr: none
+  std::shared_ptr<const DistanceField> prices_to_rest_;  // of to_rest_, with prices
+  StopSet optional_ = 0;
   CostToGo cost_to_go_;
   PortDistances ports_;
 };
@@ -145,6 +161,7 @@ class SequenceStages {
 
   struct Stage {
     StopSet left = 0;          // stops not counted yet
+    Time price = kNever;       // for leaving out `left`; kNever: the agent must visit one of them
     StopSet next = 0;          // stops of `left` that may be counted next
     StopSet rests = 0;         // if the agent rests on its last stop: the stops where it may rest
     bool may_skip = false;     // a visit of a stop in `next` need not count it
@@ -204,7 +221,8 @@ class SequenceStages {
       if (!stops_.takes_time(at)) reach(id);
       return true;
     }
-    if (stages_[id].may_skip && !stops_.takes_time(at)) reach(id);
+    if ((stages_[id].may_skip || (stops_.optional() >> at & 1) != 0) && !stops_.takes_time(at))
+      reach(id);
     const StageId then = after(id, at);
     if (then == kOutside) return false;
     reach(then);
@@ -212,11 +230,15 @@ class SequenceStages {
   }
 
   // Least cost from a state through all stops that are left to the place of rest, over the known
-  // onward ports. Returns kNever or more if no route is known.
+  // onward ports. With prices: through some of them, plus the price of the others and of the place.
+  // Returns kNever or more if no route is known.
   Time distance(StageId id, State state) const {
     const Stage& s = stages_[id];
-    if (s.left == 0) return to_rest(s, state);
     Time best = kNever;
+    if (s.price < kNever) {
+      best = s.price + to_rest(s, state);
+      if (s.left == 0) return best;
+    }
     for (const Onward& o : std::span(&onward_[s.first], static_cast<std::size_t>(s.nearest)))
       best = std::min(best, stops_.to_port(state, o.port) + o.cost);
     return best;
@@ -226,12 +248,17 @@ class SequenceStages {
     return {onward_.data() + stage.first, static_cast<std::size_t>(stage.count)};
   }
 
-  // May the agent come to rest in this state?
+  // May the agent come to rest in this state? Requires an agent without prices.
   bool is_rest(const Stage& stage, State state) const {
     if (stage.left != 0) return false;
     if (!stops_.rests_on_last_stop()) return stops_.to_rest(state) == 0;
-    const int stop = stops_.stop_at(state);
-    return stop >= 0 && (stage.rests >> stop & 1) != 0;
+    return is_last_stop(stage, state);
+  }
+  // What the agent pays if it comes to rest in this state; kNever: it may not. 0 without prices.
+  Time price_of_rest(const Stage& stage, State state) const {
+    if (stage.price >= kNever) return kNever;
+    if (stops_.rests_on_last_stop()) return is_last_stop(stage, state) ? stage.price : kNever;
+    return add_costs(stage.price, stops_.price_of_rest(state));
   }
 
  private:
@@ -241,6 +268,10 @@ class SequenceStages {
   static bool may_work(const Stage& stage, int at) {
     const int stop = AgentStops::stop_of_work(at);
     return stop != AgentStops::kNoStop && (stage.next >> stop & 1) != 0;
+  }
+  bool is_last_stop(const Stage& stage, State state) const {
+    const int stop = stops_.stop_at(state);
+    return stop >= 0 && (stage.rests >> stop & 1) != 0;
   }
   Time to_rest(const Stage& stage, State state) const;
   StopSet next_of(StopSet left) const;

@@ -25,6 +25,7 @@
 #include "sequencing/direct_legs.h"
 #include "sequencing/held_karp_table.h"
 #include "sequencing/one_tree_relaxation.h"
+#include "sequencing/optional_stops_dag.h"
 #include "sequencing/rtsp.h"
 #include "sequencing/sequence.h"
 #include "sequencing/sequence_dag.h"
@@ -207,6 +208,36 @@ class CostToGo::Ordered : public Store {
   std::vector<StopSet> later_;  // by stop: the stops after it in the order
 };
 
+// Prices to go of sequences that may leave out stops.
+class CostToGo::Priced : public Store {
+ public:
+  Priced(std::shared_ptr<const CostMatrix> matrix, std::vector<Time> skip)
+      : Store(std::move(matrix)),
+        skip_(std::make_shared<const std::vector<Time>>(std::move(skip))),
+        dag_(std::make_shared<const OptionalStopsDag>(0)) {}
+
+  Time relaxed_bound() const override { return 0; }
+  Time outside_bound() const override { return dag_->outside_bound(); }
+  Time cost_to_go(StopSet left, int port) const override { return dag_->price_to_go(left, port); }
+  std::shared_ptr<const Store> extended(Time cost_limit, const Limits& limits) const override {
+    auto extended = std::make_shared<Priced>(*this);
+    if (!extended->bounds_) {
+      auto bounds = CompletionBounds::make(matrix(), *skip_, limits);
+      if (!bounds) return nullptr;
+      extended->bounds_ = std::make_shared<const CompletionBounds>(*std::move(bounds));
+    }
+    auto dag = OptionalStopsDag::build(matrix(), *skip_, *extended->bounds_, cost_limit, limits);
+    if (!dag) return nullptr;
+    extended->dag_ = std::make_shared<const OptionalStopsDag>(*std::move(dag));
+    return extended;
+  }
+
+ private:
+  std::shared_ptr<const std::vector<Time>> skip_;
+  std::shared_ptr<const CompletionBounds> bounds_;  // made when first needed
+  std::shared_ptr<const OptionalStopsDag> dag_;
+};
+
 CostToGo::CostToGo(CostMatrix matrix, SharedArray table, MakeDirectLegs direct) {
   auto shared = std::make_shared<const CostMatrix>(std::move(matrix));
   if (shared->stops() > kTableStops)
@@ -244,6 +275,11 @@ std::optional<CostToGo> CostToGo::of_class(const SequenceClass& sequence_class) 
   CostToGo cost_to_go(std::move(other));
   if (marked_ != store_) cost_to_go.marked_ = marked_->of_class(sequence_class);
   return cost_to_go;
+}
+
+CostToGo CostToGo::with_prices(CostMatrix matrix, std::vector<Time> skip) {
+  return CostToGo(std::make_shared<Priced>(std::make_shared<const CostMatrix>(std::move(matrix)),
+                                           std::move(skip)));
 }
 
 const CostMatrix& CostToGo::matrix() const {

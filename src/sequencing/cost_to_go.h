@@ -43,6 +43,10 @@ class CostToGo {
   // nothing: outside_bound() is 0. A state is known if its stop precedes all its stops left in
   // `order`; its cost to go is the least cost through the stops left in this order.
   static CostToGo in_order(const CostMatrix& matrix, Sequence order);
+  // Returns prices to go: costs of sequences that may leave out stops, plus the prices of these
+  // stops. `skip`: by stop, the price of leaving it out; kNever: it must be visited. Requires one
+  // port per stop. extend() fails if there are too many states.
+  static CostToGo with_prices(CostMatrix matrix, std::vector<Time> skip);
   const CostMatrix& matrix() const;
 
   // Proven lower bound on the cost of every sequence with a state outside the store; for a graph by
@@ -79,6 +83,7 @@ class CostToGo {
   explicit CostToGo(std::shared_ptr<const Store> store);
   class Graph;
   class Ordered;
+  class Priced;
   template <class Entry>
   class Table;
   // Result of an extend(): `from`, extended to `cost_limit`, became `to`.

@@ -22,7 +22,7 @@ constexpr std::size_t kStates = 200'000;
 TEST(SolveWithChoices, AgreesWithTheOracle) {
   int plans = 0;
   int optimal = 0;
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(200));
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(100));
        ++seed) {
     SCOPED_TRACE(seed);
     const Instance instance = with_random_choices(fuzz::any_instance(seed).build(), seed);
@@ -40,8 +40,8 @@ TEST(SolveWithChoices, AgreesWithTheOracle) {
     ++plans;
     optimal += solution.status == Status::kOptimal ? 1 : 0;
   }
-  EXPECT_GT(plans, 50);
-  EXPECT_GT(4 * optimal, plans);
+  EXPECT_GT(plans, 25);
+  EXPECT_GT(2 * optimal, plans);
 }
 
 TEST(SolveWithChoices, TooFewGoalsAreInfeasible) {

@@ -49,7 +49,9 @@ TEST(Assignment, AgreesWithEnumeration) {
     EXPECT_EQ(used.size(), rows);
     for (std::size_t column = 0; column < assignment->prices.size(); ++column) {
       EXPECT_GE(assignment->prices[column], 0);
-      if (!used.contains(static_cast<int>(column))) EXPECT_EQ(assignment->prices[column], 0);
+      if (!used.contains(static_cast<int>(column))) {
+        EXPECT_EQ(assignment->prices[column], 0);
+      }
     }
     for (std::size_t row = 0; row < rows; ++row) {
       const auto price_of = [&](std::size_t column) {
@@ -57,7 +59,9 @@ TEST(Assignment, AgreesWithEnumeration) {
       };
       const auto own = static_cast<std::size_t>(assignment->columns[row]);
       for (std::size_t column = 0; column < columns; ++column)
-        if (cost[row][column] < kForbidden) EXPECT_LE(price_of(own), price_of(column));
+        if (cost[row][column] < kForbidden) {
+          EXPECT_LE(price_of(own), price_of(column));
+        }
     }
   }
   EXPECT_GT(infeasible, 200);

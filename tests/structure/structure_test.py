@@ -11,7 +11,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 # Lowest layer first. Each layer may use only the layers before it.
-LAYERS = ["model", "execution", "io", "sequencing", "assignment", "planning", "joint", "lagrangian", "conflicts", "search", "cores",
+LAYERS = ["model", "execution", "io", "sequencing", "planning", "assignment", "joint", "lagrangian", "conflicts", "search", "cores",
           "proof", "primal", "baselines",
           "engine", "batch", "api", "mpi", "tools"]
 CODE_FOLDERS = ["include", "src", "mpi", "cluster", "examples", "python", "tools", "tests", "benchmarks"]

@@ -193,7 +193,8 @@ class Bench {
   ChildEnd run_one(const std::vector<std::string>& command, batch::Row& row, const Files& files,
                    bool receives_time_limit, std::optional<double> memory_gb) const {
     const double limit = row.run.settings.time_limit_s;
-    const double grace = limit * (options_.grace_factor - 1) + options_.grace_s;
+    const double for_certificate = options_.verify.empty() ? 0 : limit;
+    const double grace = limit * (options_.grace_factor - 1) + options_.grace_s + for_certificate;
     const ChildEnd end = run_child(command, files.output_file,
                                    {.seconds = receives_time_limit ? limit + grace : limit,
                                     .cancelled = [this] { return must_stop(); },

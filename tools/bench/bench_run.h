@@ -36,8 +36,9 @@ struct BenchOptions {
   std::string verify;       // path of grove-verify; "": without certificates
   double root_cost_s = 10;  // time limit for computing the root cost of an instance
   double root_cost_gb = 1;  // memory limit of this process while it computes a root cost
-  // A run is killed at grace_factor * limit + grace_s seconds after its start. An external solver
-  // whose command line does not contain the time limit is killed at the limit.
+  // A run is killed at grace_factor * limit + grace_s seconds after its start, or `limit` seconds
+  // later if it writes a certificate, which it does after the limit. An external solver whose
+  // command line does not contain the time limit is killed at the limit.
   double grace_s = 10;
   double grace_factor = 1.1;
   std::string version;            // of Grove; for rows of runs that do not report one

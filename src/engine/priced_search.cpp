@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "engine/priced_search.h"
+
+#ifdef GROVE_WITH_CADICAL
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "assignment/priced_instance.h"
+#include "cores/core_search.h"
+#include "engine/component.h"
+#include "model/check.h"
+#include "planning/agent_stops_cache.h"
+#include "planning/problem.h"
+
+namespace grove::detail {
+namespace {
+
+constexpr std::size_t kMaxBytes = std::size_t{4} << 30;
+
+// Throws std::logic_error if the checker refuses the plan, because then the search has a bug.
+Plan checked(const Instance& instance, Plan plan) {
+  Solution claim;
+  claim.status = status_of(plan.cost, claim.lower_bound, claim.omega);
+  claim.plan = std::move(plan);
+  if (const auto violations = check(instance, claim, 1); !violations.empty())
+    throw std::logic_error(fmt::format("internal error: a plan of the search is wrong at {}: {}",
+                                       violations[0].json_pointer, violations[0].message));
+  return *std::move(claim.plan);
+}
+
+class CoresOfPrices : public PricedSearch {
+ public:
+  CoresOfPrices(const Instance& instance, PricedInstance priced, const SolveOptions& options,
+                const Limits& limits)
+      : limits_(limits),
+        priced_(std::move(priced)),
+        problem_(priced_.instance, limits, options.threads),
+        stops_(priced_.instance, problem_.distances, &priced_.prices) {
+    if (!problem_.distances.complete()) return;
+    const auto make_plan = [this, &instance](const std::vector<CountedPath>& paths) {
+      return checked(instance, plan_of(instance, priced_, paths));
+    };
+    search_ = std::make_unique<CoreSearch>(problem_, stops_, techniques_of(options),
+                                           at_most_a_quarter(kMaxBytes, limits), limits, nullptr, 0,
+                                           PricedChoices{&priced_.prices, make_plan});
+  }
+
+  bool run(Cost cutoff, std::int64_t effort) override {
+    if (!search_) return false;
+    const std::int64_t end = search_->work() + effort;
+    while (search_->work() < end && !limits_.stop_requested())
+      if (search_->step(cutoff) != CoreSearch::Outcome::kWorking) return false;
+    return true;
+  }
+  Cost lower_bound() const override {
+    return search_ && search_->is_set_up() ? search_->lower_bound() : 0;
+  }
+  const std::optional<Plan>& plan() const override { return search_ ? search_->plan() : no_plan_; }
+  void add_counts(Counters& counters) const override {
+    if (!search_) return;
+    counters[Counter::kCores] += search_->cores();
+    counters[Counter::kCoresConflicts] += search_->sat_conflicts();
+    counters[Counter::kCoresPathConflicts] += search_->path_conflicts();
+  }
+
+ private:
+  const Limits& limits_;
+  const PricedInstance priced_;
+  const Problem problem_;
+  const AgentStopsCache stops_;
+  const std::optional<Plan> no_plan_;
+  std::unique_ptr<CoreSearch> search_;  // nullptr: a limit was reached before it began
+};
+
+}  // namespace
+
+std::unique_ptr<PricedSearch> PricedSearch::make(const Instance& instance, RouteBound& bound,
+                                                 Cost cutoff, const SolveOptions& options,
+                                                 const Limits& limits) {
+  if (!techniques_of(options).has(Technique::kCores)) return nullptr;
+  auto priced = price_choices(instance, bound, cutoff, limits);
+  if (!priced) return nullptr;
+  return std::make_unique<CoresOfPrices>(instance, *std::move(priced), options, limits);
+}
+
+}  // namespace grove::detail
+#else
+namespace grove::detail {
+
+std::unique_ptr<PricedSearch> PricedSearch::make(const Instance&, RouteBound&, Cost,
+                                                 const SolveOptions&, const Limits&) {
+  return nullptr;
+}
+
+}  // namespace grove::detail
+#endif

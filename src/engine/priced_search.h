@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Search over all assignments at once, for instances in which agents choose tasks or destinations.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "assignment/route_bound.h"
+#include "engine/solve.h"
+#include "model/counters.h"
+
+namespace grove::detail {
+
+// Searches by unsatisfiable cores (cores/core_search.h), in which agents pay for the tasks that
+// they leave out and for their goals (assignment/priced_instance.h). One thread at a time.
+class PricedSearch {
+ public:
+  // Searches for plans that cost less than `cutoff`. Returns nullptr if the instance cannot be
+  // priced (price_choices()), or if the build or `options` are without cores. All arguments except
+  // `bound` must outlive the object.
+  static std::unique_ptr<PricedSearch> make(const Instance& instance, RouteBound& bound,
+                                            Cost cutoff, const SolveOptions& options,
+                                            const Limits& limits);
+  virtual ~PricedSearch() = default;
+
+  // Searches with an effort of about `effort` (model/effort.h). `cutoff`: as in make(), and not
+  // greater. Returns false if the search is over.
+  virtual bool run(Cost cutoff, std::int64_t effort) = 0;
+  // Proven: no plan that costs less than the cutoff of the last run() costs less than this.
+  virtual Cost lower_bound() const = 0;
+  // An optimal plan, if the search has found one. It is checked.
+  virtual const std::optional<Plan>& plan() const = 0;
+  virtual void add_counts(Counters& counters) const = 0;
+};
+
+}  // namespace grove::detail

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Prices of the choices of one agent.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "model/grid.h"
+#include "model/instance.h"
+#include "model/omega.h"
+#include "model/plan.h"
+
+namespace grove::detail {
+
+// What an agent pays for its choices, in steps. The *price* of a path is its cost, plus the prices
+// of the stops that it leaves out, plus the price of the goal on which it ends.
+struct AgentPrices {
+  struct Goal {
+    Place place;
+    Time price;
+  };
+  std::vector<Time> skip;       // by stop: for leaving it out; kNever: it must visit it
+  std::vector<Goal> goals;      // where it may end; empty: as the instance says
+  bool rests_anywhere = false;  // it may end on any place
+};
+
+// Prices for an instance in which agents may leave out stops. Which stops agents count must agree
+// with `needs`. The cost of a plan is the sum of the prices of its paths, plus the prices of the
+// goals that no agent uses, minus `constant`.
+struct Prices {
+  // The visits of one task: by agents, with the position of the task in Agent::stops.
+  struct Visit {
+    AgentIndex agent;
+    int stop;
+  };
+  struct Need {
+    int count = 1;
+    bool is_exact = false;  // exactly `count` of `visits` are counted; otherwise at least `count`
+    std::vector<Visit> visits;
+  };
+  std::vector<std::optional<AgentPrices>> agents;  // by AgentIndex; nullopt: without choices
+  std::vector<Need> needs;
+  std::vector<AgentPrices::Goal> goals;  // all goals with a price above 0
+  Cost constant = 0;
+};
+
+// A path of an agent with prices, and the stops that it counts, with the times, in order.
+struct CountedPath {
+  Path path;
+  std::vector<std::pair<Time, int>> counted;
+};
+
+}  // namespace grove::detail
