@@ -32,6 +32,7 @@ class LegBuilder {
   }
 
   void add_from(std::int32_t from) {
+    walks_.forward.stops[from].legs.clear();
     const auto steps_to = [&](TaskIndex to) {
       return costs_.between(walks_.agent, walks_.tasks[from], to);
     };
@@ -80,22 +81,23 @@ class LegBuilder {
   std::vector<std::int32_t> order_;  // all stops
 };
 
-void add_neighbors(const RouteCosts& costs, AgentWalks& walks) {
+void add_neighbors(const RouteCosts& costs, AgentWalks& walks, int count) {
   for (std::size_t stop = 0; stop < walks.tasks.size(); ++stop) {
     std::vector<std::pair<Time, std::int32_t>> others;
     for (std::size_t other = 0; other < walks.tasks.size(); ++other)
       others.emplace_back(
           other == stop ? -1 : costs.between(walks.agent, walks.tasks[stop], walks.tasks[other]),
           static_cast<std::int32_t>(other));
-    std::ranges::partial_sort(others, others.begin() + walks.forward.neighbors);
-    for (int i = 0; i < walks.forward.neighbors; ++i)
-      walks.forward.stops[stop].neighbors.push_back(others[i].second);
+    std::ranges::partial_sort(others, others.begin() + count);
+    for (int i = 0; i < count; ++i)
+      walks.forward.add_neighbor(static_cast<std::int32_t>(stop), others[i].second);
   }
 }
 
 }  // namespace
 
-AgentWalks make_agent_walks(const RouteCosts& costs, AgentIndex index, int neighbors) {
+AgentWalks make_agent_walks(const RouteCosts& costs, AgentIndex index,
+                            std::pair<int, int> neighbors) {
   const Agent& agent = costs.instance().agent(index);
   AgentWalks walks{.agent = index,
                    .tasks = agent.tasks,
@@ -106,8 +108,9 @@ AgentWalks make_agent_walks(const RouteCosts& costs, AgentIndex index, int neigh
   walks.tasks.insert(walks.tasks.end(), agent.options.begin(), agent.options.end());
   walks.forward.stops.resize(walks.tasks.size());
   walks.forward.remembered = std::min(kMaxRemembered, static_cast<int>(agent.tasks.size()));
-  walks.forward.neighbors = std::min({neighbors, NgStops::kMaxBits - walks.forward.remembered,
-                                      static_cast<int>(walks.tasks.size())});
+  walks.forward.neighbors =
+      std::min({neighbors.second, NgStops::kMaxBits - walks.forward.remembered,
+                static_cast<int>(walks.tasks.size())});
   walks.goals = agent.destinations();
   for (const Place goal : walks.goals)
     walks.start_to_goals.push_back(costs.start_to_goal(index, goal));
@@ -116,11 +119,18 @@ AgentWalks make_agent_walks(const RouteCosts& costs, AgentIndex index, int neigh
     for (const Place goal : walks.goals)
       walks.to_goals.back().push_back(costs.to_goal(index, task, goal));
   }
-  add_neighbors(costs, walks);
+  add_neighbors(costs, walks, std::min(neighbors.first, walks.forward.neighbors));
   LegBuilder legs(costs, walks);
   legs.add_from_start();
   for (std::int32_t from = 0; from < std::ssize(walks.tasks); ++from) legs.add_from(from);
   return walks;
+}
+
+bool AgentWalks::forbid_cycle(const RouteCosts& costs, const std::vector<std::int32_t>& cycle) {
+  const std::vector<std::int32_t> changed = forward.forbid_cycle(cycle);
+  LegBuilder legs(costs, *this);
+  for (const std::int32_t from : changed) legs.add_from(from);  // which legs are needed changes
+  return !changed.empty();
 }
 
 NgStops AgentWalks::reversed(const RouteCosts& costs,

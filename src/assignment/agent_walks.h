@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "assignment/route_costs.h"
@@ -24,12 +25,17 @@ struct AgentWalks {
   std::vector<Time> start_to_goals;         // by position in `goals`; kNever: no path
   std::vector<std::vector<Time>> to_goals;  // by task and position in `goals`
 
+  // Changes neighbourhoods such that walks repeat this cycle of stops less often. Returns false if
+  // there is no room.
+  bool forbid_cycle(const RouteCosts& costs, const std::vector<std::int32_t>& cycle);
   // The walks in reverse direction. first_costs: by stop, the cost from the stop to the end. All
   // legs are possible, because a leg that forward walks leave out can be part of a reverse walk.
   NgStops reversed(const RouteCosts& costs, const std::vector<std::int64_t>& first_costs) const;
 };
 
-// Legs that are not needed are left out; the proof is at the head of agent_walks.cpp.
-AgentWalks make_agent_walks(const RouteCosts& costs, AgentIndex agent, int neighbors);
+// Legs that are not needed are left out; the proof is at the head of agent_walks.cpp. `neighbors`:
+// of each stop, at first and at most.
+AgentWalks make_agent_walks(const RouteCosts& costs, AgentIndex agent,
+                            std::pair<int, int> neighbors);
 
 }  // namespace grove::detail

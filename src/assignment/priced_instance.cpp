@@ -35,7 +35,7 @@ class Pricing {
 
   std::optional<PricedInstance> make() {
     for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent)
-      if (!can_be_priced(agent)) return std::nullopt;
+      if (!has_room(agent)) return std::nullopt;
     remove_goals_of_others();
     InstanceBuilder builder = InstanceBuilder::like(instance_);
     for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
@@ -62,13 +62,11 @@ class Pricing {
     return std::ranges::binary_search(choices_[agent].visits, task);
   }
 
-  bool can_be_priced(AgentIndex index) const {
+  bool has_room(AgentIndex index) const {
     const Agent& agent = instance_.agent(index);
     const std::vector<TaskIndex>& visits = choices_[index].visits;
     if (!agent.has_choice()) return true;
-    if (agent.kind > 0 || agent.tasks.size() + visits.size() > kMaxTasksPerAgent) return false;
-    const auto begun = task_at_start(instance_, index);
-    if (begun && !instance_.task(*begun).needs_all()) return false;
+    if (agent.tasks.size() + visits.size() > kMaxTasksPerAgent) return false;
     std::set<Place> places;
     bool takes_time = false;
     for (const TaskIndex task : agent.tasks) {
@@ -185,8 +183,19 @@ AgentPlan agent_plan_of(const Instance& instance, const PricedInstance& priced, 
 
 }  // namespace
 
+bool can_price_choices(const Instance& instance) {
+  for (AgentIndex index = 0; index < instance.agent_count(); ++index) {
+    if (!instance.agent(index).has_choice()) continue;
+    const auto begun = task_at_start(instance, index);
+    if (instance.agent(index).kind > 0 || (begun && !instance.task(*begun).needs_all()))
+      return false;
+  }
+  return true;
+}
+
 std::optional<PricedInstance> price_choices(const Instance& instance, RouteBound& bound,
                                             Cost cutoff, const Limits& limits) {
+  if (!can_price_choices(instance)) return std::nullopt;
   auto choices = bound.choices_below(cutoff, limits);
   if (!choices) return std::nullopt;
   auto multipliers = bound.rounded(limits);

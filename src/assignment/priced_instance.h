@@ -23,10 +23,14 @@ struct PricedInstance {
   Prices prices;
 };
 
-// Returns nullopt if it is not possible: an agent with a choice needs time to turn, needs more than
-// kMaxTasksPerAgent tasks or several tasks on one place, or must visit tasks, some of which take
-// time, without a destination; or `bound` has no result; or a limit is reached. `cutoff`: plans of
-// this cost or more are left out.
+// Returns false if no choices of the instance can be priced, because an agent with a choice needs
+// time to turn, or starts while it executes an optional task.
+bool can_price_choices(const Instance& instance);
+
+// Returns nullopt if it is not possible: can_price_choices() is false; or an agent with a choice
+// needs more than kMaxTasksPerAgent tasks or several tasks on one place, or must visit tasks, some
+// of which take time, without a destination; or `bound` has no result; or a limit is reached.
+// `cutoff`: plans of this cost or more are left out. The lower it is, the fewer tasks agents need.
 std::optional<PricedInstance> price_choices(const Instance& instance, RouteBound& bound,
                                             Cost cutoff, const Limits& limits);
 

@@ -41,9 +41,9 @@ namespace {
 
 constexpr std::int64_t kUnit = AgentWalks::kUnit;
 constexpr std::int64_t kNoWalk = NgStops::kNoWalk;
-// Tasks in a neighbourhood; fewer if agents times tasks exceed kMany.
-constexpr int kNeighbors = 6;
-constexpr int kFewNeighbors = 3;
+// Tasks in a neighbourhood, at first and at most; fewer if agents times tasks exceed kMany.
+constexpr std::pair<int, int> kNeighbors = {4, 8};
+constexpr std::pair<int, int> kFewNeighbors = {3, 4};
 constexpr std::int64_t kMany = 5000;
 constexpr double kFirstFactor = 0.5;  // of the step size by Polyak
 constexpr double kLastFactor = 0.005;
@@ -74,6 +74,7 @@ class RouteBound::Relaxation {
         case NgWalks::Outcome::kStopped:
           return;
         case NgWalks::Outcome::kNoMinimum:
+          if (has_grown_) continue;
           retreat();
           factor_ *= kRetreatFactor;
           continue;
@@ -221,10 +222,15 @@ class RouteBound::Relaxation {
     bound_ = 0;
     for (std::size_t i = 0; i < needs_.size(); ++i) bound_ += needs_[i] * on_visits_[i];
     for (const std::int64_t multiplier : on_goals_) bound_ -= multiplier;
-    for (const AgentData& agent : agents_) {
+    for (AgentData& agent : agents_) {
       const auto outcome = find_walks(agent, agent.walks.forward, limits, end - effort());
+      if (outcome == NgWalks::Outcome::kNoMinimum)
+        has_grown_ = agent.walks.forbid_cycle(costs_, walks_.cycle());
       if (outcome != NgWalks::Outcome::kFound) return outcome;
-      bound_ += least_reduced_cost(agent);
+      NgWalks::LabelId last = NgWalks::kStart;
+      bound_ += least_reduced_cost(agent, &last);
+      if (const auto cycle = walks_.cycle_before(last); !cycle.empty())
+        agent.walks.forbid_cycle(costs_, cycle);
     }
     return NgWalks::Outcome::kFound;
   }
@@ -238,7 +244,7 @@ class RouteBound::Relaxation {
   }
 
   // Of the labels found, the least reduced cost to an end. Counts the visits of the walk.
-  std::int64_t least_reduced_cost(const AgentData& agent) {
+  std::int64_t least_reduced_cost(const AgentData& agent, NgWalks::LabelId* end_label = nullptr) {
     const NgWalks::Memory always = (NgWalks::Memory{1} << agent.walks.forward.remembered) - 1;
     std::pair<std::int64_t, std::size_t> best{kNoWalk, 0};
     if (always == 0) best = cost_to_end(agent, agent.walks.start_to_goals);
@@ -251,6 +257,7 @@ class RouteBound::Relaxation {
       best = end;
       last = label;
     }
+    if (end_label) *end_label = last;
     if (!agent.goals.empty() && best.first < kNoWalk) ++uses_[agent.goals[best.second]];
     for (; last != NgWalks::kStart; last = walks_.parent(last)) {
       const std::size_t condition = agent.conditions[walks_.stop(last)];
@@ -363,7 +370,8 @@ class RouteBound::Relaxation {
   std::vector<std::int64_t> on_goals_;   // and by index in places_
   Best best_;
   double factor_ = kFirstFactor;
-  int failures_ = 0;  // steps since the last progress
+  int failures_ = 0;        // steps since the last progress
+  bool has_grown_ = false;  // a neighbourhood has, in the last evaluation without a minimum
   NgWalks walks_;
   // Of the current evaluation.
   std::int64_t bound_ = 0;

@@ -24,10 +24,13 @@ class Watcher : public CaDiCaL::Terminator, public CaDiCaL::Learner {
 
   bool terminate() override {
     work += effort::kPerSolverRound;
-    return ++rounds_ % kRoundsPerPoll == 0 && limits_.stop_requested();
+    if (++rounds_ < next_poll_) return false;
+    next_poll_ = rounds_ + kRoundsPerPoll;
+    return limits_.stop_requested();
   }
   bool learning(int size) override {
     ++conflicts;
+    next_poll_ = 0;  // in a large formula, a conflict can take long
     work += effort::kPerLearnedLiteral * size + literals / effort::kSolverLiterals;
     return false;
   }
@@ -39,7 +42,8 @@ class Watcher : public CaDiCaL::Terminator, public CaDiCaL::Learner {
 
  private:
   const Limits& limits_;
-  std::int64_t rounds_ = 0;  // of the solver's main loop
+  std::int64_t rounds_ = 0;     // of the solver's main loop
+  std::int64_t next_poll_ = 0;  // the number of rounds at which the limits are polled
 };
 
 // Reads a trace in the binary DRAT format, which arrives in pieces, and logs it. A step is 'a' or

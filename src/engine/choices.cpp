@@ -14,6 +14,7 @@
 #include "assignment/assignment.h"
 #include "assignment/assignment_search.h"
 #include "assignment/choice_bounds.h"
+#include "assignment/priced_instance.h"
 #include "assignment/route_bound.h"
 #include "engine/adaptations.h"
 #include "engine/checkpoint.h"
@@ -27,12 +28,16 @@ namespace grove::detail {
 namespace {
 
 // Of the time that is left: for the search of the first assignment, and of each other one.
-constexpr double kFirstShare = 0.2;
+constexpr double kFirstShare = 0.5;
 constexpr double kOtherShare = 0.125;
+// The same, if all assignments are searched at once as well.
+constexpr double kFirstShareOfMany = 0.1;
+constexpr double kOtherShareOfMany = 0.05;
 // Effort of the Lagrangian bound (about 1 s), and its share of the time at most.
 constexpr std::int64_t kBoundEffort = 150'000'000;
 constexpr double kBoundShare = 0.2;
 constexpr std::int64_t kPricedEffort = 2'000'000;  // per further assignment
+constexpr Cost kMaxReach = 100;    // above twice the bound, after all plans were too many
 constexpr int kMaxFailures = 200;  // assignments in succession that lead to no cheaper plan
 
 Solution infeasible(const SolveOptions& options, const std::string& reason, RunObserver& observer) {
@@ -86,7 +91,8 @@ class ChoicesRun {
   Solution run(AssignmentSearch& assignments, const Assignment& first, RouteBound& routes,
                Cost bound) {
     bound_ = bound;
-    best_ = solve_one(first, kFirstShare);
+    if (!can_price_choices(instance_)) reach_ = 0;
+    best_ = solve_one(first, reach_ > 0 ? kFirstShareOfMany : kFirstShare);
     int failures = 0;
     bool has_assignment = true;
     while (!limits_.stop_requested() && !is_within(best_, options_.omega)) {
@@ -99,7 +105,7 @@ class ChoicesRun {
       has_assignment = other.has_value();
       if (!other) continue;
       const Cost before = cost();
-      best_ = merged_result(best_, solve_one(*other, kOtherShare));
+      best_ = merged_result(best_, solve_one(*other, reach_ > 0 ? kOtherShareOfMany : kOtherShare));
       failures = cost() < before ? 0 : failures + 1;
     }
     return finish();
@@ -114,21 +120,27 @@ class ChoicesRun {
     return solve_restriction(restriction(instance_, assignment, bound_), options_, part, merged_);
   }
 
-  // Returns false if the search over all assignments is over, or is not possible.
+  // Returns false if the search over all assignments is over, or is not possible. It first
+  // considers all plans below the incumbent. If there are too many, it considers those that cost at
+  // most `reach_` more than the bound; if none of these exists, the bound rises, and it is
+  // repeated.
   bool search_priced(RouteBound& routes) {
-    if (!priced_ && cost() < priced_from_) {
-      priced_from_ = cost();
-      priced_ = PricedSearch::make(instance_, routes, cost(), options_, limits_);
+    if (reach_ == 0) return false;
+    if (!priced_) {
+      cutoff_ = reach_ < cost() - bound_ ? bound_ + reach_ : cost();
+      priced_ = PricedSearch::make(instance_, routes, cutoff_, options_, limits_);
     }
-    if (!priced_) return false;
-    const bool is_open = priced_->run(cost(), kPricedEffort);
-    use_priced();
-    if (!is_open) end_priced();
-    return is_open;
+    cutoff_ = std::min(cutoff_, cost());
+    const bool is_open = priced_ && priced_->run(cutoff_, kPricedEffort);
+    if (priced_) use_priced();
+    if (is_open || limits_.stop_requested()) return is_open;
+    if (priced_) end_priced();
+    if (bound_ < cutoff_) reach_ = std::min({reach_, cutoff_ - bound_, bound_ + kMaxReach}) / 2;
+    return reach_ > 0;
   }
 
   void use_priced() {
-    const Cost proven = std::min(priced_->lower_bound(), cost());
+    const Cost proven = std::min(priced_->lower_bound(), cutoff_);
     if (proven >= kInfiniteCost) return;  // there is no plan, but limits may have been reached
     const bool is_news = proven > bound_;
     bound_ = std::max(bound_, proven);
@@ -142,7 +154,8 @@ class ChoicesRun {
     if (const std::optional<Plan>& plan = priced_->plan(); plan && plan->cost < cost()) {
       best_.plan = plan;
       progress.incumbent = plan->cost;
-      progress.lower_bound = bound_ = std::max(bound_, std::min(priced_->lower_bound(), cost()));
+      progress.lower_bound = bound_ =
+          std::max(bound_, std::min(priced_->lower_bound(), plan->cost));
       merged_.incumbent(*plan, PlanSource::kCores, progress);
       merged_.event(RunEvent::kIncumbent, progress);
     }
@@ -176,7 +189,8 @@ class ChoicesRun {
   Cost bound_ = 0;  // for all assignments
   Solution best_;
   std::unique_ptr<PricedSearch> priced_;
-  Cost priced_from_ = kInfiniteCost + 1;  // the cutoff with which it was made last
+  Cost cutoff_ = kInfiniteCost;  // of priced_
+  Cost reach_ = kInfiniteCost;   // how far above the bound it searches at most; 0: not at all
   int searched_ = 0;
 };
 

@@ -18,14 +18,51 @@ namespace grove::detail {
 namespace {
 
 constexpr std::int32_t kRoundsPerTest = 8;
+constexpr std::size_t kMaxIndexed = 256;  // stops with an index of positions
+constexpr std::int8_t kNone = -1;
 
 }  // namespace
 
-NgStops::Memory NgStops::bits_of(std::int32_t at, std::int32_t stop) const {
-  if (stop < remembered) return Memory{1} << stop;
+std::int8_t NgStops::find(std::int32_t at, std::int32_t stop) const {
   const std::vector<std::int32_t>& near = stops[at].neighbors;
   const auto found = std::ranges::find(near, stop);
-  return found == near.end() ? 0 : Memory{1} << (remembered + (found - near.begin()));
+  return found == near.end() ? kNone : static_cast<std::int8_t>(found - near.begin());
+}
+
+void NgStops::add_neighbor(std::int32_t at, std::int32_t stop) {
+  GROVE_ASSERT(std::ssize(stops[at].neighbors) < neighbors, "the neighbourhood has room");
+  const std::size_t count = stops.size();
+  if (positions_.empty() && count <= kMaxIndexed) positions_.assign(count * count, kNone);
+  if (!positions_.empty())
+    positions_[static_cast<std::size_t>(at) * count + static_cast<std::size_t>(stop)] =
+        static_cast<std::int8_t>(stops[at].neighbors.size());
+  stops[at].neighbors.push_back(stop);
+}
+
+// Of the stops of the cycle, the one that the fewest others must remember in addition.
+std::vector<std::int32_t> NgStops::forbid_cycle(std::span<const std::int32_t> cycle) {
+  std::vector<std::int32_t> best;
+  for (const std::int32_t stop : cycle) {
+    std::vector<std::int32_t> changed;
+    bool is_possible = true;
+    for (const std::int32_t at : cycle) {
+      if (bits_of(at, stop) != 0) continue;
+      is_possible &= std::ssize(stops[at].neighbors) < neighbors;
+      changed.push_back(at);
+    }
+    if (!is_possible || changed.empty() || (!best.empty() && changed.size() >= best.size()))
+      continue;
+    best = std::move(changed);
+    best.push_back(stop);
+  }
+  if (best.empty()) return best;
+  const std::int32_t stop = best.back();
+  best.pop_back();
+  std::ranges::sort(best);
+  const auto rest = std::ranges::unique(best);
+  best.erase(rest.begin(), rest.end());
+  for (const std::int32_t at : best) add_neighbor(at, stop);
+  return best;
 }
 
 NgWalks::Outcome NgWalks::find(const NgStops& stops, std::span<const std::int64_t> prizes,
@@ -43,7 +80,7 @@ NgWalks::Outcome NgWalks::find(const NgStops& stops, std::span<const std::int64_
       reach(to, stops.bits_of(to, to), stops.stops[to].first, kStart, 0);
   for (std::int32_t round = 1; !next_.empty(); ++round) {
     if (effort_ >= end || limits.stop_requested()) return Outcome::kStopped;
-    if (round % kRoundsPerTest == 0 && is_on_cycle(next_.back())) return Outcome::kNoMinimum;
+    if (round % kRoundsPerTest == 0 && has_cycle(next_.back())) return Outcome::kNoMinimum;
     std::swap(now_, next_);
     next_.clear();
     for (const LabelId from : now_) extend(from, round);
@@ -90,10 +127,31 @@ NgWalks::Memory NgWalks::memory_after(LabelId from, std::int32_t to) const {
   return after;
 }
 
-bool NgWalks::is_on_cycle(LabelId label) const {
+bool NgWalks::has_cycle(LabelId label) {
   std::size_t steps = 0;
   for (; label != kStart && steps <= reached_.size(); ++steps) label = labels_[label].parent;
+  on_cycle_ = label;
   return label != kStart;
+}
+
+std::vector<std::int32_t> NgWalks::cycle() const {
+  std::vector<std::int32_t> stops;
+  LabelId label = on_cycle_;
+  do {
+    stops.push_back(stop(label));
+    label = labels_[label].parent;
+  } while (label != on_cycle_);
+  return stops;
+}
+
+std::vector<std::int32_t> NgWalks::cycle_before(LabelId label) const {
+  std::vector<std::int32_t> stops;
+  for (; label != kStart; label = labels_[label].parent) {
+    const auto before = std::ranges::find(stops, stop(label));
+    if (before != stops.end()) return {before, stops.end()};
+    stops.push_back(stop(label));
+  }
+  return {};
 }
 
 }  // namespace grove::detail

@@ -17,8 +17,10 @@ namespace grove::detail {
 // stop u remembers the visits of the walk in the neighbourhood N(u) only, and on the way to v it
 // forgets those outside N(v). It does not repeat a visit that it remembers. A few stops are always
 // remembered. So every route is such a walk, and the least reduced cost of a label, which is the
-// cost minus the prizes, is a lower bound for the routes.
-struct NgStops {
+// cost minus the prizes, is a lower bound for the routes. Neighbourhoods can grow where walks
+// repeat visits.
+class NgStops {
+ public:
   using Memory = std::uint32_t;
   // Memory has one bit for each stop that is always remembered, then one for each neighbour.
   static constexpr int kMaxBits = 13;
@@ -39,11 +41,30 @@ struct NgStops {
 
   std::vector<Stop> stops;  // those that are always remembered come first
   int remembered = 0;       // their number
-  int neighbors = 0;        // the number of neighbours of each stop
+  int neighbors = 0;        // the greatest number of neighbours of a stop
 
   int bits() const { return remembered + neighbors; }
-  // The bits by which a label at the stop `at` can remember `stop`; 0: it cannot.
-  Memory bits_of(std::int32_t at, std::int32_t stop) const;
+  // The bit by which a label at the stop `at` can remember `stop`; 0: it cannot.
+  Memory bits_of(std::int32_t at, std::int32_t stop) const {
+    if (stop < remembered) return Memory{1} << stop;
+    const std::int8_t position =
+        positions_.empty() ? find(at, stop)
+                           : positions_[static_cast<std::size_t>(at) * stops.size() + stop];
+    return position < 0 ? 0 : Memory{1} << (remembered + position);
+  }
+  // Adds `stop` to the neighbourhood of `at`. Requires that all stops exist.
+  void add_neighbor(std::int32_t at, std::int32_t stop);
+
+  // Adds a stop to the neighbourhoods of others, where there is room, such that labels on a closed
+  // walk through `stops` remember a visit that the walk repeats. Returns the stops with a new
+  // neighbour.
+  std::vector<std::int32_t> forbid_cycle(std::span<const std::int32_t> cycle);
+
+ private:
+  std::int8_t find(std::int32_t at, std::int32_t stop) const;
+
+  std::vector<std::int8_t> positions_;  // by two stops: of the second among the neighbours of the
+                                        // first; empty if there are many stops
 };
 
 // Finds all labels of one agent. One thread at a time.
@@ -72,6 +93,10 @@ class NgWalks {
   Memory memory(LabelId label) const {
     return static_cast<Memory>(label) & ((Memory{1} << stops_->bits()) - 1);
   }
+  // After kNoMinimum: the stops of a cycle with a negative reduced cost, in reverse order.
+  std::vector<std::int32_t> cycle() const;
+  // After kFound: the first cycle on the walk of a label, in reverse order; empty: there is none.
+  std::vector<std::int32_t> cycle_before(LabelId label) const;
   // The number of labels tried by all calls of find().
   std::int64_t effort() const { return effort_; }
 
@@ -86,7 +111,7 @@ class NgWalks {
   void reach(std::int32_t stop, Memory memory, std::int64_t cost, LabelId parent,
              std::int32_t round);
   Memory memory_after(LabelId from, std::int32_t to) const;
-  bool is_on_cycle(LabelId label) const;
+  bool has_cycle(LabelId label);
 
   const NgStops* stops_ = nullptr;
   std::span<const std::int64_t> prizes_;
@@ -94,6 +119,7 @@ class NgWalks {
   std::vector<LabelId> reached_;  // those of labels_ with a cost
   std::vector<LabelId> now_;      // reached in the last round
   std::vector<LabelId> next_;     // reached in this round
+  LabelId on_cycle_ = kStart;     // after kNoMinimum
   std::int64_t effort_ = 0;
 };
 

@@ -24,7 +24,8 @@ namespace grove::detail {
 namespace {
 
 constexpr int kMaxRequired = 8;
-constexpr int kNeighbors = 6;
+constexpr int kNeighbors = 6;  // at first
+constexpr int kMaxNeighbors = 10;
 constexpr std::int64_t kMaxEffort = 20'000'000;  // of the reverse walks, about 0.2 s
 
 bool must_visit(const std::vector<Time>& skip, int stop) {
@@ -45,20 +46,22 @@ ReverseWalks reverse_walks(const CostMatrix& matrix, const std::vector<Time>& sk
   const auto required = std::ranges::count(skip, kNever);
   walks.stops.remembered = std::min(kMaxRequired, static_cast<int>(required));
   walks.stops.neighbors =
-      std::min({kNeighbors, NgStops::kMaxBits - walks.stops.remembered, matrix.stops()});
-  for (const int stop : walks.order) {
+      std::min({kMaxNeighbors, NgStops::kMaxBits - walks.stops.remembered, matrix.stops()});
+  walks.stops.stops.resize(walks.order.size());
+  for (std::int32_t at = 0; at < std::ssize(walks.order); ++at) {
+    const int stop = walks.order[at];
     walks.prizes.push_back(must_visit(skip, stop) ? 0 : skip[static_cast<std::size_t>(stop)]);
-    NgStops::Stop made;
+    NgStops::Stop& made = walks.stops.stops[at];
     if (matrix.to_end(stop) < kNever) made.first = matrix.to_end(stop);
     std::vector<std::pair<Time, std::int32_t>> nearest;
     for (std::int32_t to = 0; to < std::ssize(walks.order); ++to) {
       const Time leg = matrix.between(walks.order[to], stop);
-      nearest.emplace_back(walks.order[to] == stop ? -1 : leg, to);
-      if (walks.order[to] != stop && leg < kNever) made.legs.push_back({to, leg, 0});
+      nearest.emplace_back(to == at ? -1 : leg, to);
+      if (to != at && leg < kNever) made.legs.push_back({to, leg, 0});
     }
     std::ranges::sort(nearest);
-    for (int i = 0; i < walks.stops.neighbors; ++i) made.neighbors.push_back(nearest[i].second);
-    walks.stops.stops.push_back(std::move(made));
+    for (int i = 0; i < std::min(kNeighbors, walks.stops.neighbors); ++i)
+      walks.stops.add_neighbor(at, nearest[i].second);
   }
   return walks;
 }
@@ -76,10 +79,20 @@ std::optional<CompletionBounds> CompletionBounds::make(const CostMatrix& matrix,
                                                        const std::vector<Time>& skip,
                                                        const Limits& limits) {
   GROVE_CHECK(matrix.ports == 1, "completions are from stops, not from ports");
-  const ReverseWalks reverse = reverse_walks(matrix, skip);
+  ReverseWalks reverse = reverse_walks(matrix, skip);
   NgWalks walks;
-  if (walks.find(reverse.stops, reverse.prizes, kMaxEffort, limits) != NgWalks::Outcome::kFound)
-    return std::nullopt;
+  for (bool found = false; !found;) {
+    switch (walks.find(reverse.stops, reverse.prizes, kMaxEffort - walks.effort(), limits)) {
+      case NgWalks::Outcome::kFound:
+        found = true;
+        break;
+      case NgWalks::Outcome::kNoMinimum:
+        if (reverse.stops.forbid_cycle(walks.cycle()).empty()) return std::nullopt;
+        break;
+      case NgWalks::Outcome::kStopped:
+        return std::nullopt;
+    }
+  }
   CompletionBounds bounds;
   bounds.skip_ = skip;
   for (int i = 0; i < reverse.stops.remembered; ++i) bounds.required_ |= bit(reverse.order[i]);
@@ -141,13 +154,15 @@ std::optional<OptionalStopsDag> OptionalStopsDag::build(const CostMatrix& matrix
     };
     layer.erase(std::unique(layer.begin(), layer.end(), same), layer.end());
     count += layer.size();
-    if (count > kMaxStates || limits.stop_requested()) return std::nullopt;
+    if (count > kMaxStates) return std::nullopt;
     std::vector<Known> next;
-    for (const Known& state : layer)
+    for (const Known& state : layer) {
+      if (next.size() > 8 * kMaxStates || limits.stop_requested()) return std::nullopt;
       for_each_stop(state.left, [&](int stop) {
         reach(next, state.left & ~bit(stop), stop,
               add_costs(state.cost, matrix.between(state.at, stop)));
       });
+    }
     layers.push_back(std::move(next));
   }
   for (const std::vector<Known>& layer : layers)
