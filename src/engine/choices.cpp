@@ -112,7 +112,10 @@ class ChoicesRun {
   }
 
  private:
-  Cost cost() const { return best_.plan ? best_.plan->cost : kInfiniteCost; }
+  std::optional<Cost> incumbent() const {
+    return best_.plan ? std::optional(best_.plan->cost) : std::nullopt;
+  }
+  Cost cost() const { return incumbent().value_or(kInfiniteCost); }
 
   Solution solve_one(const Assignment& assignment, double share) {
     ++searched_;
@@ -145,7 +148,7 @@ class ChoicesRun {
     const bool is_news = proven > bound_;
     bound_ = std::max(bound_, proven);
     best_.lower_bound = bound_;
-    Progress progress{.lower_bound = bound_, .incumbent = cost()};
+    Progress progress{.lower_bound = bound_, .incumbent = incumbent()};
     merged_.begin_search();
     if (is_news) {
       merged_.outside_bound(ComponentId::kCores);
@@ -160,7 +163,7 @@ class ChoicesRun {
       merged_.event(RunEvent::kIncumbent, progress);
     }
     best_.lower_bound = bound_;
-    best_.status = status_of(cost(), bound_, options_.omega);
+    best_.status = status_of(incumbent(), bound_, options_.omega);
   }
 
   void end_priced() {

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <fstream>
+#include <utility>
 
+#include "tests/fuzz/random.h"
 #include "tests/fuzz/shrink.h"
 
 namespace grove::detail::fuzz {
@@ -125,7 +127,10 @@ std::optional<Failure> run_campaign(const Campaign& campaign, const Solver& solv
   Limits limits;
   if (campaign.seconds) limits.set_deadline(after(*campaign.seconds));
   for (std::int64_t k = 0; k < campaign.count && !limits.stop_requested(); ++k) {
-    const FuzzCase fuzz_case = random_case(campaign.seed + static_cast<std::uint64_t>(k));
+    const std::uint64_t seed = campaign.seed + static_cast<std::uint64_t>(k);
+    FuzzCase fuzz_case = random_case(seed);
+    if (Random(seed ^ 0xC401CE).percent(campaign.choices_percent))
+      fuzz_case = with_choices(std::move(fuzz_case), seed + 1);
     if (!campaign.trace.empty()) std::ofstream(campaign.trace) << fuzz_case.to_text();
     const CaseResult result = run_case(fuzz_case, solver, campaign.patience);
     tally.add(fuzz_case, result);

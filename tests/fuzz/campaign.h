@@ -51,6 +51,7 @@ struct Campaign {
   // File to which each case is written before it runs, in case of a crash. It holds only the latest
   // case. Empty: none.
   std::filesystem::path trace = {};
+  int choices_percent = 0;  // of the cases have choices
 };
 
 // Runs cases until one fails, and shrinks that case. Returns nullopt if no case failed within the

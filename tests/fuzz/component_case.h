@@ -26,14 +26,10 @@ struct NamedPart {
   std::string_view name;
 };
 inline constexpr std::array kParts = {
-    NamedPart{Part::kAny, "any"},
-    NamedPart{Part::kTree, "tree"},
-    NamedPart{Part::kPairs, "pairs"},
-    NamedPart{Part::kGroups, "groups"},
-    NamedPart{Part::kJoint, "joint"},
-    NamedPart{Part::kPrices, "prices"},
-    NamedPart{Part::kCores, "cores"},
-    NamedPart{Part::kSequences, "sequences"},
+    NamedPart{Part::kAny, "any"},     NamedPart{Part::kTree, "tree"},
+    NamedPart{Part::kPairs, "pairs"}, NamedPart{Part::kGroups, "groups"},
+    NamedPart{Part::kJoint, "joint"}, NamedPart{Part::kPrices, "prices"},
+    NamedPart{Part::kCores, "cores"}, NamedPart{Part::kSequences, "sequences"},
 };
 
 // Returns the case of `seed`: for kAny random_case(), for any other part a case without an imposed

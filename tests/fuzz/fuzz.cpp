@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/method.h"
 #include "tests/fuzz/campaign.h"
 #include "tests/fuzz/planted_optimum.h"
 #include "tests/oracle/joint_oracle.h"
@@ -33,6 +34,7 @@ FuzzCase read_case(const std::string& path) {
 // instance that the search loses the optimal plan of `truth`.
 Solution solve_watched(const Instance& instance, const SolveOptions& options, const Limits& limits,
                        const oracle::Answer& truth) {
+  if (instance.has_choices()) return solve_by(Method::kAuto, false, instance, options, limits);
   if (!truth.plan) return solve(instance, options, limits);
   PlantedOptimum planted(instance, *truth.plan);
   Solution solution = solve(instance, options, limits, &planted);
@@ -79,6 +81,9 @@ int main_of(int argc, char** argv) {
   double max_unsolved = 100;
   app.add_option("--max-unsolved", max_unsolved,
                  "fail if a larger percentage of these runs takes longer")
+      ->capture_default_str();
+  campaign.choices_percent = 50;
+  app.add_option("--choices", campaign.choices_percent, "percentage of instances with choices")
       ->capture_default_str();
   app.add_option("--trace", campaign.trace, "write each case to this file before it runs");
   app.add_option("--case", paths, "run the cases in these files instead")->check(CLI::ExistingFile);

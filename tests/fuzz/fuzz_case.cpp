@@ -12,6 +12,7 @@
 
 #include "tests/fuzz/random.h"
 #include "tests/fuzz/random_instance.h"
+#include "tests/support/random_choices.h"
 
 namespace grove::detail::fuzz {
 namespace {
@@ -87,6 +88,8 @@ void read_option(const std::string& line, FuzzCase& fuzz_case) {
     fuzz_case.options.techniques = fuzz_case.options.techniques.without(value_of_technique(value));
   else if (key == "tune")
     set(fuzz_case.options.tuning, value);
+  else if (key == "choices")
+    fuzz_case.choices = parse_number(value);
   else if (key == "strike")
     fuzz_case.limit = value_of(kImposedLimits, value);
   else
@@ -175,6 +178,11 @@ ImposedLimit random_limit(Random& random) {
 
 }  // namespace
 
+Instance FuzzCase::build() const {
+  Instance plain = instance.build();
+  return choices == 0 ? plain : with_random_choices(plain, choices);
+}
+
 std::string FuzzCase::to_text() const {
   std::string text =
       fmt::format("{}options\nomega {}\npolicy {}\nrtsp {}\nseed {}\nstrike {}\n",
@@ -184,6 +192,7 @@ std::string FuzzCase::to_text() const {
     text += fmt::format("low-level {}\n", name_of(kLowLevels, options.low_level));
   if (options.threads != 1) text += fmt::format("threads {}\n", options.threads);
   if (options.deterministic) text += "deterministic yes\n";
+  if (choices != 0) text += fmt::format("choices {}\n", choices);
   for (const auto& [t, name] : kTechniques)
     if (!options.techniques.has(t)) text += fmt::format("without {}\n", name);
   if (options.node_memory != SolveOptions::kUnlimited)
@@ -202,6 +211,13 @@ FuzzCase FuzzCase::parse(std::string_view text) {
   if (heading == std::string_view::npos) return fuzz_case;
   std::istringstream in{std::string(text.substr(heading + kHeading.size()))};
   for (std::string line; std::getline(in, line);) read_option(line, fuzz_case);
+  return fuzz_case;
+}
+
+FuzzCase with_choices(FuzzCase fuzz_case, std::uint64_t seed) {
+  fuzz_case.choices = seed;
+  if (fuzz_case.options.policy == Policy::kFixed) fuzz_case.options.policy = Policy::kAuto;
+  fuzz_case.options.low_level = LowLevel::kOwn;
   return fuzz_case;
 }
 

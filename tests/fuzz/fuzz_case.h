@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "engine/solve.h"
+#include "model/instance.h"
 #include "tests/fuzz/tiny_instance.h"
 
 namespace grove::detail::fuzz {
@@ -34,13 +35,17 @@ enum class ImposedLimit : std::uint8_t {
 //     node-memory 4000     (bytes)
 //     tune bypasses=2      (a tunable; repeatable)
 //     strike nothing       (nothing, expired, soon, memory, interrupt)
+//     choices 5            (seed of with_random_choices())
 struct FuzzCase {
   FuzzCase() { options.audit = true; }
 
   TinyInstance instance;
   SolveOptions options;
   ImposedLimit limit = ImposedLimit::kNothing;
+  std::uint64_t choices = 0;  // seed of with_random_choices(); 0: no choices
 
+  // The instance, with its choices.
+  Instance build() const;
   std::string to_text() const;
   // Throws std::invalid_argument if `text` is malformed.
   static FuzzCase parse(std::string_view text);
@@ -48,5 +53,7 @@ struct FuzzCase {
 
 // Returns a random instance with random options. The same seed gives the same case.
 FuzzCase random_case(std::uint64_t seed);
+// The same case with random choices, and without options that do not support them.
+FuzzCase with_choices(FuzzCase fuzz_case, std::uint64_t seed);
 
 }  // namespace grove::detail::fuzz

@@ -89,7 +89,9 @@ void judge(const Instance& instance, const FuzzCase& fuzz_case, const oracle::An
     result.complaints.push_back(fmt::format("returned {} s after the deadline",
                                             std::chrono::duration<double>(first.overrun).count()));
   SolveOptions& options = again.options;
-  const bool repeatable = options.threads == 1 || options.deterministic;
+  // With choices, the searches of assignments divide the time.
+  const bool repeatable =
+      options.deterministic || (options.threads == 1 && !instance.has_choices());
   if (first.stopped || first.duration > kWorthRepeating || !repeatable) return;
   if (options.deterministic) options.threads = options.threads % 4 + 1;
   const Run second = run(instance, again, truth, patience, solver);
@@ -101,7 +103,7 @@ void judge(const Instance& instance, const FuzzCase& fuzz_case, const oracle::An
 
 CaseResult run_case(const FuzzCase& fuzz_case, const Solver& solver,
                     std::chrono::milliseconds patience) {
-  const Instance instance = fuzz_case.instance.build();
+  const Instance instance = fuzz_case.build();
   const oracle::Answer truth = oracle::solve_jointly(instance);
   CaseResult result;
   result.too_large = truth.verdict == oracle::Verdict::kTooLarge;

@@ -96,7 +96,7 @@ class Steps {
  private:
   void offer(FuzzCase candidate) {
     try {
-      (void)candidate.instance.build();
+      (void)candidate.build();
     } catch (const std::invalid_argument&) {
       return;  // invalid, for instance because the road on which an agent starts is gone
     }
