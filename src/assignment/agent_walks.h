@@ -12,8 +12,8 @@
 
 namespace grove::detail {
 
-// The tasks of an agent and the legs between them. Walks remember up to `remembered` of the tasks
-// that the agent must visit always; these come first.
+// The tasks of an agent and the legs between them. Walks always remember the first
+// NgStops::remembered tasks, which the agent must visit.
 struct AgentWalks {
   // Unit of the costs of legs: 1 / kUnit steps.
   static constexpr std::int64_t kUnit = 256;
@@ -25,8 +25,8 @@ struct AgentWalks {
   std::vector<Time> start_to_goals;         // by position in `goals`; kNever: no path
   std::vector<std::vector<Time>> to_goals;  // by task and position in `goals`
 
-  // Changes neighbourhoods such that walks repeat this cycle of stops less often. Returns false if
-  // there is no room.
+  // Enlarges neighbourhoods along `cycle` (dynamic ng-route relaxation). Returns false if none has
+  // changed.
   bool forbid_cycle(const RouteCosts& costs, const std::vector<std::int32_t>& cycle);
   // The walks in reverse direction. first_costs: by stop, the cost from the stop to the end. All
   // legs are possible, because a leg that forward walks leave out can be part of a reverse walk.

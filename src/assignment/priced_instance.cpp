@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 // *Prices.* Let m_t >= 0 be the multiplier of a task t with a choice, n_t its need, and C_t the
 // agents that may visit it in a plan below the cutoff. An agent of C_t that does not count t pays
-// m_t. In each plan below the cutoff, agents can be chosen who count t such that exactly n_t do: an
-// agent that visits t and does not count it has only an unstated visit. So the agents pay m_t
-// (|C_t|
-// - n_t) together, whatever the plan. If |C_t| = n_t, all of C_t must visit t. If m_t = 0, surplus
-// visits change nothing. Let m_g >= 0 be the multiplier of a goal g. The agent that ends on g pays
-// m_g. If no agent does, the plan adds m_g. *Claim: the cost of the plan is the sum of the prices
-// of its paths, plus m_g for the goals without an agent, minus the sum of m_t (|C_t| - n_t) and of
-// m_g.* *Proof.* Add the payments above.
+// m_t. Every plan below the cutoff can be written with exactly n_t counted visits to t: the other
+// visits are then not stated. So the agents together pay m_t (|C_t| - n_t) in each such plan. If
+// |C_t| = n_t, all of C_t must visit t. If m_t = 0, surplus visits change nothing. Let m_g >= 0 be
+// the multiplier of a goal g. The agent that ends on g pays m_g. If no agent does, the plan adds
+// m_g. *Claim: the cost of the plan is the sum of the prices of its paths, plus m_g for the goals
+// without an agent, minus the sum of all m_t (|C_t| - n_t) and m_g.* *Proof.* Add the payments.
+//
+// If fewer than n_t agents are left in C_t, or an agent with a choice of goals has none left, there
+// is no plan below the cutoff.
 //
 // An agent without a destination that must visit a task rests on a task that it has visited. If it
 // rests on an optional task that it does not count, this visit is stated as well; it is a surplus
-// visit, and the agent has paid for it.
+// visit, and the agent has paid the price of leaving it out.
 #include "assignment/priced_instance.h"
 
 #include <algorithm>
@@ -27,21 +28,21 @@
 namespace grove::detail {
 namespace {
 
-class Pricing {
+class Reformulation {
  public:
-  Pricing(const Instance& instance, std::vector<RouteBound::Choices> choices,
-          RouteBound::Multipliers multipliers)
+  Reformulation(const Instance& instance, std::vector<RouteBound::Choices> choices,
+                RouteBound::Multipliers multipliers)
       : instance_(instance), choices_(std::move(choices)), multipliers_(std::move(multipliers)) {}
 
-  std::optional<PricedInstance> make() {
+  Pricing make(std::optional<PricedInstance>& priced) {
     for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent)
-      if (!has_room(agent)) return std::nullopt;
+      if (!has_room(agent)) return Pricing::kNotPossible;
     remove_goals_of_others();
     InstanceBuilder builder = InstanceBuilder::like(instance_);
     for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
       AgentSpec spec = instance_.spec(agent);
       if (!spec.goals.empty()) spec.goals = choices_[agent].goals;
-      if (instance_.agent(agent).goals.size() > 0 && spec.goals.empty()) return std::nullopt;
+      if (instance_.agent(agent).goals.size() > 0 && spec.goals.empty()) return Pricing::kNoPlan;
       builder.add_agent(std::move(spec));
     }
     for (TaskIndex task = 0; task < instance_.task_count(); ++task) {
@@ -49,12 +50,12 @@ class Pricing {
       std::vector<std::string> ids;
       for (const AgentIndex agent : of.agents)
         if (of.needs_all() || may_visit(agent, task)) ids.push_back(instance_.agent(agent).id);
-      if (static_cast<int>(ids.size()) < of.need) return std::nullopt;
+      if (static_cast<int>(ids.size()) < of.need) return Pricing::kNoPlan;
       builder.add_task(of.id, of.cell, ids, of.duration);
     }
-    PricedInstance priced{std::move(builder).build(), {}};
-    add_prices(priced);
-    return priced;
+    priced.emplace(PricedInstance{std::move(builder).build(), {}});
+    add_prices(*priced);
+    return Pricing::kDone;
   }
 
  private:
@@ -193,14 +194,14 @@ bool can_price_choices(const Instance& instance) {
   return true;
 }
 
-std::optional<PricedInstance> price_choices(const Instance& instance, RouteBound& bound,
-                                            Cost cutoff, const Limits& limits) {
-  if (!can_price_choices(instance)) return std::nullopt;
+Pricing price_choices(const Instance& instance, RouteBound& bound, Cost cutoff,
+                      const Limits& limits, std::optional<PricedInstance>& priced) {
+  if (!can_price_choices(instance)) return Pricing::kNotPossible;
   auto choices = bound.choices_below(cutoff, limits);
-  if (!choices) return std::nullopt;
+  if (!choices) return Pricing::kNotPossible;
   auto multipliers = bound.rounded(limits);
-  if (!multipliers) return std::nullopt;
-  return Pricing(instance, *std::move(choices), *std::move(multipliers)).make();
+  if (!multipliers) return Pricing::kNotPossible;
+  return Reformulation(instance, *std::move(choices), *std::move(multipliers)).make(priced);
 }
 
 Plan plan_of(const Instance& instance, const PricedInstance& priced,

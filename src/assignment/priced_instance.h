@@ -2,6 +2,7 @@
 // Instances in which agents pay for their choices.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -14,10 +15,11 @@
 
 namespace grove::detail {
 
-// An instance whose agents have the optional tasks, and the goals, that they may need in a plan
-// below some cost. In `instance` each of them must visit the tasks; `prices` states which it may
-// leave out. Its plans, with the paths of their agents, are plans of the original instance. The
-// proof is at the head of priced_instance.cpp.
+// An exact reformulation of an instance with choices, for plans that cost less than a cutoff.
+// Reduced cost fixing removes choices that no such plan contains. In `instance` an agent must visit
+// the remaining optional tasks; `prices` states which of them it may leave out, and at which price.
+// plan_of() converts paths of the agents to a plan of the original instance. The proof is at the
+// head of priced_instance.cpp.
 struct PricedInstance {
   Instance instance;  // with the agents and tasks of the original instance, at the same indices
   Prices prices;
@@ -27,12 +29,20 @@ struct PricedInstance {
 // time to turn, or starts while it executes an optional task.
 bool can_price_choices(const Instance& instance);
 
-// Returns nullopt if it is not possible: can_price_choices() is false; or an agent with a choice
-// needs more than kMaxTasksPerAgent tasks or several tasks on one place, or must visit tasks, some
-// of which take time, without a destination; or `bound` has no result; or a limit is reached.
-// `cutoff`: plans of this cost or more are left out. The lower it is, the fewer tasks agents need.
-std::optional<PricedInstance> price_choices(const Instance& instance, RouteBound& bound,
-                                            Cost cutoff, const Limits& limits);
+// The result of price_choices().
+enum class Pricing : std::uint8_t {
+  kDone,
+  kNoPlan,       // proven: no plan costs less than the cutoff
+  kNotPossible,  // see price_choices()
+};
+
+// Makes the reformulation for plans that cost less than `cutoff`. The lower the cutoff, the fewer
+// choices are left. kNotPossible: can_price_choices() is false; or an agent with a choice would
+// have more than kMaxTasksPerAgent tasks, or several tasks on one place; or it has no destination
+// and must visit a task, and one of its tasks, also of the optional ones, takes time; or `bound`
+// has no result; or a limit is reached.
+Pricing price_choices(const Instance& instance, RouteBound& bound, Cost cutoff,
+                      const Limits& limits, std::optional<PricedInstance>& priced);
 
 // Makes a plan of `instance` of paths in `priced.instance`. Precondition: the paths have no
 // conflicts, count the tasks as often as needed, and end where they may.

@@ -73,7 +73,7 @@ class RouteBound::Relaxation {
       switch (evaluate(end - effort(), limits)) {
         case NgWalks::Outcome::kStopped:
           return;
-        case NgWalks::Outcome::kNoMinimum:
+        case NgWalks::Outcome::kNegativeCycle:
           if (has_grown_) continue;
           retreat();
           factor_ *= kRetreatFactor;
@@ -126,7 +126,7 @@ class RouteBound::Relaxation {
       switch (evaluate(kNoWalk, limits)) {
         case NgWalks::Outcome::kStopped:
           return std::nullopt;
-        case NgWalks::Outcome::kNoMinimum:
+        case NgWalks::Outcome::kNegativeCycle:
           bound_ = 0;
           break;
         case NgWalks::Outcome::kFound:
@@ -224,7 +224,7 @@ class RouteBound::Relaxation {
     for (const std::int64_t multiplier : on_goals_) bound_ -= multiplier;
     for (AgentData& agent : agents_) {
       const auto outcome = find_walks(agent, agent.walks.forward, limits, end - effort());
-      if (outcome == NgWalks::Outcome::kNoMinimum)
+      if (outcome == NgWalks::Outcome::kNegativeCycle)
         has_grown_ = agent.walks.forbid_cycle(costs_, walks_.cycle());
       if (outcome != NgWalks::Outcome::kFound) return outcome;
       NgWalks::LabelId last = NgWalks::kStart;

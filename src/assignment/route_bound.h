@@ -43,7 +43,8 @@ class RouteBound {
   };
   std::optional<std::vector<Choices>> choices_below(Cost cutoff, const Limits& limits);
 
-  // Multipliers in whole steps, with a bound that is as good as possible. Returns nullopt if there
+  // Integral multipliers, in steps, with a good bound, found by local search from the best
+  // multipliers. Returns nullopt if there
   // is no bound yet, or if a limit is reached.
   struct Multipliers {
     std::vector<Time> on_visits;                   // by task; 0 for tasks without a choice

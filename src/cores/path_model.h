@@ -78,7 +78,7 @@ class PathModel {
   SatSolver::Result solve(std::vector<Literal> assumptions, std::span<const AgentIndex> needed,
                           int max_conflicts);
   // After kSatisfiable: reads the paths of the model. Adds clauses for their conflicts, and with
-  // prices for visits that are missing or too many, and returns the number of conflicts.
+  // prices for visits that are missing or too many. Returns the number of both.
   std::int64_t add_conflicts();
   // Decisions of the solver try the paths of the model that was read last first.
   void prefer_paths();
@@ -106,7 +106,7 @@ class PathModel {
     bool is_limited = false;  // by limit()
   };
 
-  // Which clauses on the visits of a task, or on a goal, exist?
+  // Which clauses on the number of visits to a task exist?
   struct NeedClauses {
     bool at_least = false;
     bool at_most = false;

@@ -17,9 +17,9 @@
 #include "assignment/priced_instance.h"
 #include "assignment/route_bound.h"
 #include "engine/adaptations.h"
+#include "engine/all_assignments.h"
 #include "engine/checkpoint.h"
 #include "engine/merged_observer.h"
-#include "engine/priced_search.h"
 #include "engine/restriction.h"
 #include "model/choices.h"
 #include "planning/problem.h"
@@ -31,14 +31,14 @@ namespace {
 constexpr double kFirstShare = 0.5;
 constexpr double kOtherShare = 0.125;
 // The same, if all assignments are searched at once as well.
-constexpr double kFirstShareOfMany = 0.1;
-constexpr double kOtherShareOfMany = 0.05;
+constexpr double kFirstShareWithAll = 0.1;
+constexpr double kOtherShareWithAll = 0.05;
 // Effort of the Lagrangian bound (about 1 s), and its share of the time at most.
 constexpr std::int64_t kBoundEffort = 150'000'000;
 constexpr double kBoundShare = 0.2;
-constexpr std::int64_t kPricedEffort = 2'000'000;  // per further assignment
-constexpr Cost kMaxReach = 100;    // above twice the bound, after all plans were too many
-constexpr int kMaxFailures = 200;  // assignments in succession that lead to no cheaper plan
+constexpr std::int64_t kAllEffort = 2'000'000;  // per further assignment
+constexpr Cost kMarginOffset = 100;  // after a failure the margin is at most half of this + bound
+constexpr int kMaxFailures = 200;    // assignments in succession that lead to no cheaper plan
 
 Solution infeasible(const SolveOptions& options, const std::string& reason, RunObserver& observer) {
   observer.on_infeasible(reason);
@@ -55,7 +55,7 @@ Solution without_assignment(const SolveOptions& options, const Limits& limits, C
     solution = stopped_solution(options, limits);
   } else {
     solution.omega = options.omega;
-    solution.stats.texts["remark"] = "insertion found no assignment; there may be one";
+    solution.stats.texts["remark"] = "the insertion heuristic found no assignment; one may exist";
   }
   solution.lower_bound = bound;
   return solution;
@@ -66,7 +66,7 @@ Restriction restriction(const Instance& instance, const Assignment& assignment, 
           .to_whole = [&](const Plan& plan) { return with_stated_visits(instance, plan); },
           .bound = bound,
           .plans = "plans with the chosen assignment",
-          .has_no_plan = "no plan has the chosen assignment; plans with another may exist"};
+          .has_no_plan = "the chosen assignment has no plan; other assignments may have one"};
 }
 
 // The limits of one search. Deterministic runs do not divide the time.
@@ -88,30 +88,35 @@ class ChoicesRun {
              MergedObserver& merged)
       : instance_(instance), options_(options), limits_(limits), merged_(merged) {}
 
-  Solution run(AssignmentSearch& assignments, const Assignment& first, RouteBound& routes,
+  Solution run(AssignmentSearch& assignments, const Assignment& first, RouteBound& route_bound,
                Cost bound) {
     bound_ = bound;
-    if (!can_price_choices(instance_)) reach_ = 0;
-    best_ = solve_one(first, reach_ > 0 ? kFirstShareOfMany : kFirstShare);
+    if (!can_price_choices(instance_)) cutoff_margin_ = 0;
+    best_ = solve_one(first, cutoff_margin_ > 0 ? kFirstShareWithAll : kFirstShare);
     int failures = 0;
-    bool has_assignment = true;
-    while (!limits_.stop_requested() && !is_within(best_, options_.omega)) {
-      const bool has_priced = search_priced(routes);
-      if (is_within(best_, options_.omega)) break;
-      has_assignment = has_assignment && failures < kMaxFailures;
-      if (!has_priced && !has_assignment) break;
+    while (!limits_.stop_requested() && !is_over()) {
+      const bool has_all = search_all(route_bound);
+      if (is_over()) break;
+      const bool has_assignment = failures < kMaxFailures;
+      if (!has_all && !has_assignment) break;
       if (!has_assignment) continue;
       const auto other = assignments.next(cost(), limits_);
-      has_assignment = other.has_value();
-      if (!other) continue;
+      if (!other) {
+        ++failures;
+        continue;
+      }
       const Cost before = cost();
-      best_ = merged_result(best_, solve_one(*other, reach_ > 0 ? kOtherShareOfMany : kOtherShare));
+      best_ = merged_result(
+          best_, solve_one(*other, cutoff_margin_ > 0 ? kOtherShareWithAll : kOtherShare));
       failures = cost() < before ? 0 : failures + 1;
     }
     return finish();
   }
 
  private:
+  bool is_over() const {
+    return best_.status == Status::kInfeasible || is_within(best_, options_.omega);
+  }
   std::optional<Cost> incumbent() const {
     return best_.plan ? std::optional(best_.plan->cost) : std::nullopt;
   }
@@ -124,60 +129,63 @@ class ChoicesRun {
   }
 
   // Returns false if the search over all assignments is over, or is not possible. It first
-  // considers all plans below the incumbent. If there are too many, it considers those that cost at
-  // most `reach_` more than the bound; if none of these exists, the bound rises, and it is
-  // repeated.
-  bool search_priced(RouteBound& routes) {
-    if (reach_ == 0) return false;
-    if (!priced_) {
-      cutoff_ = reach_ < cost() - bound_ ? bound_ + reach_ : cost();
-      priced_ = PricedSearch::make(instance_, routes, cutoff_, options_, limits_);
+  // considers all plans below the incumbent. If these are too many, it considers only plans that
+  // cost less than the bound plus `cutoff_margin_`. If it proves that there are none, the bound
+  // rises to this cutoff, and the step repeats.
+  bool search_all(RouteBound& route_bound) {
+    if (cutoff_margin_ == 0) return false;
+    if (!all_) {
+      cutoff_ = cutoff_margin_ < cost() - bound_ ? bound_ + cutoff_margin_ : cost();
+      all_ = AllAssignmentsSearch::make(instance_, route_bound, cutoff_, options_, limits_);
     }
     cutoff_ = std::min(cutoff_, cost());
-    const bool is_open = priced_ && priced_->run(cutoff_, kPricedEffort);
-    if (priced_) use_priced();
+    const bool is_open = all_ && all_->run(cutoff_, kAllEffort);
+    if (all_) use_result_of_all();
     if (is_open || limits_.stop_requested()) return is_open;
-    if (priced_) end_priced();
-    if (bound_ < cutoff_) reach_ = std::min({reach_, cutoff_ - bound_, bound_ + kMaxReach}) / 2;
-    return reach_ > 0;
+    if (all_) end_all();
+    if (bound_ < cutoff_)
+      cutoff_margin_ = std::min({cutoff_margin_, cutoff_ - bound_, bound_ + kMarginOffset}) / 2;
+    return cutoff_margin_ > 0;
   }
 
-  void use_priced() {
-    const Cost proven = std::min(priced_->lower_bound(), cutoff_);
-    if (proven >= kInfiniteCost) return;  // there is no plan, but limits may have been reached
-    const bool is_news = proven > bound_;
-    bound_ = std::max(bound_, proven);
-    best_.lower_bound = bound_;
-    Progress progress{.lower_bound = bound_, .incumbent = incumbent()};
-    merged_.begin_search();
-    if (is_news) {
-      merged_.outside_bound(ComponentId::kCores);
-      merged_.event(RunEvent::kBound, progress);
-    }
-    if (const std::optional<Plan>& plan = priced_->plan(); plan && plan->cost < cost()) {
+  void use_result_of_all() {
+    const Cost proven = std::min(all_->lower_bound(), cutoff_);
+    if (proven >= kInfiniteCost) return prove_infeasible();
+    if (const std::optional<Plan>& plan = all_->plan(); plan && plan->cost < cost())
       best_.plan = plan;
-      progress.incumbent = plan->cost;
-      progress.lower_bound = bound_ =
-          std::max(bound_, std::min(priced_->lower_bound(), plan->cost));
-      merged_.incumbent(*plan, PlanSource::kCores, progress);
-      merged_.event(RunEvent::kIncumbent, progress);
-    }
+    else if (proven <= bound_)
+      return;
+    const bool is_plan = all_->plan() && best_.plan->cost == all_->plan()->cost;
+    bound_ = std::max(bound_, std::min(proven, cost()));
     best_.lower_bound = bound_;
     best_.status = status_of(incumbent(), bound_, options_.omega);
+    const Progress progress{.lower_bound = bound_, .incumbent = incumbent()};
+    merged_.begin_search();
+    merged_.outside_bound(ComponentId::kCores);
+    if (is_plan) merged_.incumbent(*best_.plan, PlanSource::kCores, progress);
+    merged_.event(is_plan ? RunEvent::kIncumbent : RunEvent::kBound, progress);
   }
 
-  void end_priced() {
+  void prove_infeasible() {
+    const std::string reason = "no assignment of the tasks and goals has a plan";
+    merged_.infeasible(reason);
+    best_.status = Status::kInfeasible;
+    best_.lower_bound = 0;
+    best_.stats.texts["reason"] = reason;
+    cutoff_margin_ = 0;
+  }
+
+  void end_all() {
     Counters counters;
-    priced_->add_counts(counters);
+    all_->add_counts(counters);
     add(counters, best_.stats.counts);
-    priced_.reset();
+    all_.reset();
   }
 
   Solution finish() {
-    if (priced_) end_priced();
-    if (!limits_.stop_requested() || is_within(best_, options_.omega))
-      best_.stats.texts.erase("stopped_by");
-    if (!is_within(best_, options_.omega))
+    if (all_) end_all();
+    if (!limits_.stop_requested() || is_over()) best_.stats.texts.erase("stopped_by");
+    if (!is_over())
       best_.stats.texts["remark"] = fmt::format(
           "assignments searched: {}; the lower bound is for all assignments", searched_);
     else
@@ -191,9 +199,9 @@ class ChoicesRun {
   MergedObserver& merged_;
   Cost bound_ = 0;  // for all assignments
   Solution best_;
-  std::unique_ptr<PricedSearch> priced_;
-  Cost cutoff_ = kInfiniteCost;  // of priced_
-  Cost reach_ = kInfiniteCost;   // how far above the bound it searches at most; 0: not at all
+  std::unique_ptr<AllAssignmentsSearch> all_;
+  Cost cutoff_ = kInfiniteCost;         // of all_
+  Cost cutoff_margin_ = kInfiniteCost;  // 0: all assignments cannot be searched
   int searched_ = 0;
 };
 
@@ -207,11 +215,12 @@ Solution assign_and_solve(const Instance& instance, const SolveOptions& options,
   AssignmentSearch assignments(instance, distances, options.seed);
   const auto first = assignments.first(limits);
   if (!first) return without_assignment(options, limits, bound);
-  RouteBound routes(assignments.routes());
-  routes.improve(kBoundEffort, part_of(limits, options, kBoundShare));
-  bound = std::max(bound, routes.lower_bound());
-  merged.note("Assigns the tasks and goals by insertion; the lower bound is for all assignments.");
-  return ChoicesRun(instance, options, limits, merged).run(assignments, *first, routes, bound);
+  RouteBound route_bound(assignments.routes());
+  route_bound.improve(kBoundEffort, part_of(limits, options, kBoundShare));
+  bound = std::max(bound, route_bound.lower_bound());
+  merged.note(
+      "Searches assignments of tasks and goals; the lower bound holds for all assignments.");
+  return ChoicesRun(instance, options, limits, merged).run(assignments, *first, route_bound, bound);
 }
 
 }  // namespace

@@ -7,10 +7,11 @@
 
 namespace grove::detail {
 
-// Solves an instance with choices, with the contract of solve(): searches one assignment after the
-// other (assignment/assignment_search.h), each as an instance without choices. The lower bound holds
-// for all assignments (assignment/choice_bounds.h). Ends without a proof when no further assignment
-// is found or many have led to no cheaper plan. Precondition: require_choices_fit().
+// Solves an instance with choices, with the contract of solve(). Alternates between single
+// assignments (assignment/assignment_search.h), each as an instance without choices, and a search
+// over all assignments (engine/all_assignments.h). The lower bound holds for all assignments. Ends
+// without a proof if the search over all assignments cannot continue and many further assignments
+// have led to no cheaper plan. Precondition: require_choices_fit().
 Solution solve_with_choices(const Instance& instance, const SolveOptions& options,
                             const Limits& limits, RunObserver& observer);
 

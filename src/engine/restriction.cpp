@@ -42,8 +42,10 @@ Solution solve_restriction(const Restriction& restriction, const SolveOptions& o
   solution.status = status_of(cost, solution.lower_bound, options.omega);
   if (solution.status == Status::kFeasible && !was_stopped(solution))
     solution.stats.texts["remark"] = fmt::format(
-        "within omega of {}, the lower bound for {}, but not of the bound for all plans", own_bound,
-        restriction.plans);
+        "the cost is within omega of {}, the lower bound for {}, but not of the lower bound for "
+        "all "
+        "plans",
+        own_bound, restriction.plans);
   return solution;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prices of the choices of one agent.
+// Prices of choices: of one agent, and of all agents of an instance.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace grove::detail {
 
-// What an agent pays for its choices, in steps. The *price* of a path is its cost, plus the prices
+// Prices of the choices of one agent, in steps. The *price* of a path is its cost, plus the prices
 // of the stops that it leaves out, plus the price of the goal on which it ends.
 struct AgentPrices {
   struct Goal {
@@ -25,8 +25,8 @@ struct AgentPrices {
   bool rests_anywhere = false;  // it may end on any place
 };
 
-// Prices for an instance in which agents may leave out stops. Which stops agents count must agree
-// with `needs`. The cost of a plan is the sum of the prices of its paths, plus the prices of the
+// Prices for an instance in which agents may leave out stops. The stops that agents count must
+// satisfy `needs`. The cost of a plan is the sum of the prices of its paths, plus the prices of the
 // goals that no agent uses, minus `constant`.
 struct Prices {
   // The visits of one task: by agents, with the position of the task in Agent::stops.

@@ -27,6 +27,10 @@
 // alternative. The agent may rest on a stop of the prefix only if it is the last stop of a complete
 // prefix.
 //
+// *Prices.* An agent may leave out a stop at a price above 0, even if it passes the stop, because
+// the number of agents that count it can be limited. So a visit of such a stop, if it takes no
+// time, has two successor stages. The claim holds for each set of counted stops.
+//
 // *Task executions.* A stop that takes time is counted when its execution is completed. An agent
 // starts an execution only on a stop that may be counted next. The execution ends with this count,
 // because nothing else can be counted during it (if a place has stops that take time, it has no

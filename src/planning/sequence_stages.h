@@ -101,8 +101,8 @@ class AgentStops {
   // Distance from a state to the nearest state in which the agent may rest. With prices: the least
   // sum of this distance and the price of the goal. Requires !rests_on_last_stop().
   Time to_rest(State state) const { return to_rest_[state]; }
-  // The price for resting in this state, apart from stops; kNever: it may not rest there. 0 without
-  // prices. Requires !rests_on_last_stop().
+  // The price of the goal on which the agent rests in this state; 0 without prices. kNever: it may
+  // not rest there. Requires !rests_on_last_stop().
   Time price_of_rest(State state) const;
   bool has_prices() const { return prices_ != nullptr; }
   // The price for leaving out all stops of `left`; kNever: it must visit one of them.
@@ -254,7 +254,7 @@ class SequenceStages {
     if (!stops_.rests_on_last_stop()) return stops_.to_rest(state) == 0;
     return is_last_stop(stage, state);
   }
-  // What the agent pays if it comes to rest in this state; kNever: it may not. 0 without prices.
+  // What the agent pays if it comes to rest in this state; 0 without prices. kNever: it may not.
   Time price_of_rest(const Stage& stage, State state) const {
     if (stage.price >= kNever) return kNever;
     if (stops_.rests_on_last_stop()) return is_last_stop(stage, state) ? stage.price : kNever;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Label correcting, in rounds: round r extends the labels that round r - 1 has improved. A label is
-// dropped if one at the same stop that remembers no other neighbour, and the same always remembered
-// stops, costs no more: each walk that extends the first extends the second, too. (A leg that only
-// labels with some memory make must have an alternative for the others that costs no more.)
+// Label correcting, in rounds: round r extends the labels that round r - 1 has improved.
+//
+// *Dominance.* A label is dropped if another label at the same stop costs no more, has the same
+// always remembered visits, and remembers no neighbour except the stop itself: each walk that
+// extends the first extends the second, too. (A leg that only labels with some memory make must
+// have an alternative for the others that costs no more.)
 //
 // If labels have no least cost, the parents of some label form a cycle (Cherkassky and Goldberg
 // 1999), which is tested from time to time.
@@ -80,7 +82,7 @@ NgWalks::Outcome NgWalks::find(const NgStops& stops, std::span<const std::int64_
       reach(to, stops.bits_of(to, to), stops.stops[to].first, kStart, 0);
   for (std::int32_t round = 1; !next_.empty(); ++round) {
     if (effort_ >= end || limits.stop_requested()) return Outcome::kStopped;
-    if (round % kRoundsPerTest == 0 && has_cycle(next_.back())) return Outcome::kNoMinimum;
+    if (round % kRoundsPerTest == 0 && has_cycle(next_.back())) return Outcome::kNegativeCycle;
     std::swap(now_, next_);
     next_.clear();
     for (const LabelId from : now_) extend(from, round);

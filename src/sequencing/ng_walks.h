@@ -34,7 +34,7 @@ class NgStops {
     Memory needed;
   };
   struct Stop {
-    std::int64_t first = kNoWalk;  // cost of the leg from the start; kNoWalk: not needed
+    std::int64_t first = kNoWalk;  // cost of the leg from the start; kNoWalk: there is none
     std::vector<std::int32_t> neighbors = {};  // by bit; the stop itself comes first
     std::vector<Leg> legs = {};
   };
@@ -55,9 +55,8 @@ class NgStops {
   // Adds `stop` to the neighbourhood of `at`. Requires that all stops exist.
   void add_neighbor(std::int32_t at, std::int32_t stop);
 
-  // Adds a stop to the neighbourhoods of others, where there is room, such that labels on a closed
-  // walk through `stops` remember a visit that the walk repeats. Returns the stops with a new
-  // neighbour.
+  // Adds one stop of `cycle` to the neighbourhoods of the others, if there is room, so that no walk
+  // repeats this stop along `cycle`. Returns the stops with a new neighbour.
   std::vector<std::int32_t> forbid_cycle(std::span<const std::int32_t> cycle);
 
  private:
@@ -67,7 +66,7 @@ class NgStops {
                                         // first; empty if there are many stops
 };
 
-// Finds all labels of one agent. One thread at a time.
+// Label-correcting algorithm for ng-routes. One thread at a time.
 class NgWalks {
  public:
   using Memory = NgStops::Memory;
@@ -76,8 +75,8 @@ class NgWalks {
   static constexpr LabelId kStart = -1;
   enum class Outcome : std::uint8_t {
     kFound,
-    kNoMinimum,  // some labels have no least cost: a cycle has a negative reduced cost
-    kStopped,    // a limit was reached, or `max_effort`
+    kNegativeCycle,  // some labels have no least cost: a cycle has a negative reduced cost
+    kStopped,        // a limit was reached, or `max_effort`
   };
 
   // Finds the labels of least reduced cost. `prizes`: by stop. `stops` must exist until the next
@@ -93,11 +92,11 @@ class NgWalks {
   Memory memory(LabelId label) const {
     return static_cast<Memory>(label) & ((Memory{1} << stops_->bits()) - 1);
   }
-  // After kNoMinimum: the stops of a cycle with a negative reduced cost, in reverse order.
+  // After kNegativeCycle: the stops of a cycle with a negative reduced cost, in reverse order.
   std::vector<std::int32_t> cycle() const;
   // After kFound: the first cycle on the walk of a label, in reverse order; empty: there is none.
   std::vector<std::int32_t> cycle_before(LabelId label) const;
-  // The number of labels tried by all calls of find().
+  // The number of legs scanned by all calls of find().
   std::int64_t effort() const { return effort_; }
 
  private:
@@ -119,7 +118,7 @@ class NgWalks {
   std::vector<LabelId> reached_;  // those of labels_ with a cost
   std::vector<LabelId> now_;      // reached in the last round
   std::vector<LabelId> next_;     // reached in this round
-  LabelId on_cycle_ = kStart;     // after kNoMinimum
+  LabelId on_cycle_ = kStart;     // after kNegativeCycle
   std::int64_t effort_ = 0;
 };
 

@@ -86,7 +86,7 @@ std::optional<CompletionBounds> CompletionBounds::make(const CostMatrix& matrix,
       case NgWalks::Outcome::kFound:
         found = true;
         break;
-      case NgWalks::Outcome::kNoMinimum:
+      case NgWalks::Outcome::kNegativeCycle:
         if (reverse.stops.forbid_cycle(walks.cycle()).empty()) return std::nullopt;
         break;
       case NgWalks::Outcome::kStopped:

@@ -14,20 +14,20 @@ namespace grove::detail {
 
 // Searches by unsatisfiable cores (cores/core_search.h), in which agents pay for the tasks that
 // they leave out and for their goals (assignment/priced_instance.h). One thread at a time.
-class PricedSearch {
+class AllAssignmentsSearch {
  public:
-  // Searches for plans that cost less than `cutoff`. Returns nullptr if the instance cannot be
-  // priced (price_choices()), or if the build or `options` are without cores. All arguments except
+  // Prepares a search for plans that cost less than `cutoff`. Returns nullptr if price_choices() is
+  // not possible, or if cores are disabled in the build or in `options`. All arguments except
   // `bound` must outlive the object.
-  static std::unique_ptr<PricedSearch> make(const Instance& instance, RouteBound& bound,
-                                            Cost cutoff, const SolveOptions& options,
-                                            const Limits& limits);
-  virtual ~PricedSearch() = default;
+  static std::unique_ptr<AllAssignmentsSearch> make(const Instance& instance, RouteBound& bound,
+                                                    Cost cutoff, const SolveOptions& options,
+                                                    const Limits& limits);
+  virtual ~AllAssignmentsSearch() = default;
 
   // Searches with an effort of about `effort` (model/effort.h). `cutoff`: as in make(), and not
   // greater. Returns false if the search is over.
   virtual bool run(Cost cutoff, std::int64_t effort) = 0;
-  // Proven: no plan that costs less than the cutoff of the last run() costs less than this.
+  // Proven: every plan that costs less than the cutoff of the last run() costs at least this.
   virtual Cost lower_bound() const = 0;
   // An optimal plan, if the search has found one. It is checked.
   virtual const std::optional<Plan>& plan() const = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/priced_search.h"
+#include "engine/all_assignments.h"
 
 #ifdef GROVE_WITH_CADICAL
 #include <fmt/format.h>
@@ -31,10 +31,24 @@ Plan checked(const Instance& instance, Plan plan) {
   return *std::move(claim.plan);
 }
 
-class CoresOfPrices : public PricedSearch {
+// The result if it is known in advance that no plan costs less than the cutoff.
+class NoPlan : public AllAssignmentsSearch {
  public:
-  CoresOfPrices(const Instance& instance, PricedInstance priced, const SolveOptions& options,
-                const Limits& limits)
+  explicit NoPlan(Cost cutoff) : cutoff_(cutoff) {}
+  bool run(Cost, std::int64_t) override { return false; }
+  Cost lower_bound() const override { return cutoff_; }
+  const std::optional<Plan>& plan() const override { return no_plan_; }
+  void add_counts(Counters&) const override {}
+
+ private:
+  const Cost cutoff_;
+  const std::optional<Plan> no_plan_;
+};
+
+class AllAssignmentsCores : public AllAssignmentsSearch {
+ public:
+  AllAssignmentsCores(const Instance& instance, PricedInstance priced, const SolveOptions& options,
+                      const Limits& limits)
       : limits_(limits),
         priced_(std::move(priced)),
         problem_(priced_.instance, limits, options.threads),
@@ -77,21 +91,30 @@ class CoresOfPrices : public PricedSearch {
 
 }  // namespace
 
-std::unique_ptr<PricedSearch> PricedSearch::make(const Instance& instance, RouteBound& bound,
-                                                 Cost cutoff, const SolveOptions& options,
-                                                 const Limits& limits) {
+std::unique_ptr<AllAssignmentsSearch> AllAssignmentsSearch::make(const Instance& instance,
+                                                                 RouteBound& bound, Cost cutoff,
+                                                                 const SolveOptions& options,
+                                                                 const Limits& limits) {
   if (!techniques_of(options).has(Technique::kCores)) return nullptr;
-  auto priced = price_choices(instance, bound, cutoff, limits);
-  if (!priced) return nullptr;
-  return std::make_unique<CoresOfPrices>(instance, *std::move(priced), options, limits);
+  std::optional<PricedInstance> priced;
+  switch (price_choices(instance, bound, cutoff, limits, priced)) {
+    case Pricing::kNotPossible:
+      return nullptr;
+    case Pricing::kNoPlan:
+      return std::make_unique<NoPlan>(cutoff);
+    case Pricing::kDone:
+      break;
+  }
+  return std::make_unique<AllAssignmentsCores>(instance, *std::move(priced), options, limits);
 }
 
 }  // namespace grove::detail
 #else
 namespace grove::detail {
 
-std::unique_ptr<PricedSearch> PricedSearch::make(const Instance&, RouteBound&, Cost,
-                                                 const SolveOptions&, const Limits&) {
+std::unique_ptr<AllAssignmentsSearch> AllAssignmentsSearch::make(const Instance&, RouteBound&, Cost,
+                                                                 const SolveOptions&,
+                                                                 const Limits&) {
   return nullptr;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compares the search over all assignments with the oracle, on tiny instances with choices.
-#include "engine/priced_search.h"
+#include "engine/all_assignments.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 #include "tests/support/random_choices.h"
 
 namespace grove::detail {
-namespace priced_search_test {
+namespace all_assignments_test {
 
 constexpr std::size_t kStates = 100'000;
 constexpr std::int64_t kEffort = 300'000;
@@ -36,7 +36,7 @@ std::optional<Found> search(const Instance& instance, Cost cutoff, std::int64_t 
   routes.improve(bound_effort, Limits());
   const Limits limits;
   const SolveOptions options;
-  const auto priced = PricedSearch::make(instance, routes, cutoff, options, limits);
+  const auto priced = AllAssignmentsSearch::make(instance, routes, cutoff, options, limits);
   if (!priced) return std::nullopt;
   Found found;
   found.is_over = !priced->run(cutoff, kEffort);
@@ -45,7 +45,7 @@ std::optional<Found> search(const Instance& instance, Cost cutoff, std::int64_t 
   return found;
 }
 
-TEST(PricedSearch, AgreesWithTheOracle) {
+TEST(AllAssignments, AgreesWithTheOracle) {
   int solved = 0;
   int instances = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(400));
@@ -76,5 +76,5 @@ TEST(PricedSearch, AgreesWithTheOracle) {
   EXPECT_GT(2 * solved, instances);
 }
 
-}  // namespace priced_search_test
+}  // namespace all_assignments_test
 }  // namespace grove::detail
