@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
 // *Legs through tasks.* Let w be a task without duration on a shortest path from u to v, for an
-// agent that turns freely and may or must visit w. If a walk has not visited w before the leg from
-// u to v, it can visit w there: this adds no cost, and a later visit of w can be left out, which
-// adds no cost either. If it has visited w, but does not remember it, a second visit adds no cost.
-// (Prizes are not negative.) So a label that does not remember w need not make the leg from u to v:
-// a walk through w costs no more.
+// agent that turns freely and may or must visit w. A label at u that does not remember w need not
+// make the leg from u to v, if it can go to w instead. *Claim: the least reduced cost of a label at
+// an end is still at most that of each route.* (Prizes are not negative.) *Proof.* By induction
+// there is always a label L and a rest S of the route, a sequence of different stops, such that L
+// remembers no stop of S, the stops that must always be remembered are in L or S, and the cost of L
+// plus that of S is at most the cost of the route. At first L is empty and S is the route. Let v be
+// the first stop of S. If L makes the leg to v, extend L by v. If it does not because of w, extend
+// L by w and remove w from S: the way to v is no longer, a visit of w later on is left out, which
+// adds no cost by the triangle inequality, and the prize of w is not negative. This ends, because w
+// is nearer to v. If L was dropped for another label, the latter remembers no more, has the same
+// stops that are always remembered, and costs no more.
 #include "assignment/agent_walks.h"
 
 #include <algorithm>

@@ -4,9 +4,10 @@
 // m_t. Every plan below the cutoff can be written with exactly n_t counted visits to t: the other
 // visits are then not stated. So the agents together pay m_t (|C_t| - n_t) in each such plan. If
 // |C_t| = n_t, all of C_t must visit t. If m_t = 0, surplus visits change nothing. Let m_g >= 0 be
-// the multiplier of a goal g. The agent that ends on g pays m_g. If no agent does, the plan adds
-// m_g. *Claim: the cost of the plan is the sum of the prices of its paths, plus m_g for the goals
-// without an agent, minus the sum of all m_t (|C_t| - n_t) and m_g.* *Proof.* Add the payments.
+// the multiplier of a goal g. An agent that chooses g pays m_g. If none does, the plan adds m_g.
+// (An agent without a destination can rest on g and does not pay.) *Claim: the cost of the plan is
+// the sum of the prices of its paths, plus m_g for the goals for which no agent pays, minus the sum
+// of all m_t (|C_t| - n_t) and m_g.* *Proof.* Add the payments.
 //
 // If fewer than n_t agents are left in C_t, or an agent with a choice of goals has none left, there
 // is no plan below the cutoff.
@@ -27,6 +28,8 @@
 
 namespace grove::detail {
 namespace {
+
+constexpr Time kMaxPrice = 1 << 20;
 
 class Reformulation {
  public:
@@ -99,7 +102,7 @@ class Reformulation {
       const int need = instance_.task(task).need;
       const auto surplus = static_cast<Cost>(of.agents.size()) - need;
       if (surplus == 0) continue;
-      const Time multiplier = multipliers_.on_visits[task];
+      const Time multiplier = price_of(task);
       Prices::Need& made = prices.needs.emplace_back();
       made.count = need;
       made.is_exact = multiplier > 0;
@@ -117,6 +120,9 @@ class Reformulation {
       }
   }
 
+  // At most kMaxPrice, so that sums are far below kNever. Any multiplier is valid.
+  Time price_of(TaskIndex task) const { return std::min(multipliers_.on_visits[task], kMaxPrice); }
+
   bool is_choice(Place goal) const {
     return std::ranges::any_of(choices_, [&](const RouteBound::Choices& choices) {
       return std::ranges::count(choices.goals, goal) > 0;
@@ -131,7 +137,7 @@ class Reformulation {
     for (const TaskIndex task : priced.agent(index).stops) {
       const bool is_optional =
           static_cast<int>(priced.task(task).agents.size()) > instance_.task(task).need;
-      prices.skip.push_back(is_optional ? multipliers_.on_visits[task] : kNever);
+      prices.skip.push_back(is_optional ? price_of(task) : kNever);
     }
     for (const Place goal : choices_[index].goals) {
       const auto known =

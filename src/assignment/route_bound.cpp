@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // *Relaxation.* A route of agent a starts at its start, visits tasks, and ends at one of its goals
 // or, if it has none, at its last task. Each plan contains such routes, whose legs cost at most the
-// agents' costs: the tasks in the order in which an agent first visits them. Together they visit
+// agents' costs: the tasks in the order in which an agent first visits them, after the task that it
+// executes at the start. Together they visit
 // each task with a choice of agents at least `need` times, each agent visits the tasks that it must
 // visit, and at most one route ends at each goal. Let there be a multiplier m >= 0 for each of
 // these conditions. The reduced cost of a route is its cost, minus the multipliers of its visits,
@@ -18,7 +19,10 @@
 // *Fixing.* If agent a visits t, its least reduced cost in the bound can be replaced by that of a
 // walk that visits t. This is at least the least cost of a label at t, plus that of a label at t of
 // the reverse walks from the ends, plus the multiplier of t, which both have subtracted. (Of the
-// tasks that are always remembered, each is in one of the two labels.) If the resulting bound is at
+// tasks that are always remembered, each is in one of the two labels. Where forward walks leave out
+// a leg, the argument in agent_walks.cpp applies to the part of the route before t.) The bound and
+// all reduced costs are computed with the same neighbourhoods, because a larger neighbourhood can
+// also lower the cost of a walk. If the resulting bound is at
 // least the cutoff, no plan that costs less contains the visit. The same holds for a goal and the
 // walks that end there.
 //
@@ -47,10 +51,9 @@ constexpr std::pair<int, int> kFewNeighbors = {3, 4};
 constexpr std::int64_t kMany = 5000;
 constexpr double kFirstFactor = 0.5;  // of the step size by Polyak
 constexpr double kLastFactor = 0.005;
-constexpr double kRetreatFactor = 0.9;    // of the factor, after multipliers without a bound
-constexpr Cost kMaxCost = Cost{1} << 40;  // plans of greater cost are not excluded
-constexpr int kRoundings = 60;            // sets of whole multipliers that are tried
-constexpr int kPatience = 6;              // steps without progress before the factor is halved
+constexpr double kRetreatFactor = 0.9;  // of the factor, after multipliers without a bound
+constexpr int kRoundings = 60;          // sets of whole multipliers that are tried
+constexpr int kPatience = 6;            // steps without progress before the factor is halved
 
 }  // namespace
 
@@ -81,7 +84,7 @@ class RouteBound::Relaxation {
         case NgWalks::Outcome::kFound:
           break;
       }
-      if (bound_ > best_.bound) {
+      if (!best_ || bound_ > best_->bound) {
         best_ = {bound_, on_visits_, on_goals_};
         failures_ = 0;
       } else if (++failures_ == kPatience) {
@@ -92,18 +95,30 @@ class RouteBound::Relaxation {
     }
   }
 
-  Cost lower_bound() const { return std::max<Cost>(0, (best_.bound + kUnit - 1) / kUnit); }
+  Cost lower_bound() const {
+    return best_ ? std::max<Cost>(0, (best_->bound + kUnit - 1) / kUnit) : 0;
+  }
 
   std::optional<std::vector<Choices>> choices_below(Cost cutoff, const Limits& limits) {
-    if (best_.on_visits.empty()) return std::nullopt;
-    on_visits_ = best_.on_visits;
-    on_goals_ = best_.on_goals;
+    if (!best_) return std::nullopt;
+    on_visits_ = best_->on_visits;
+    on_goals_ = best_->on_goals;
+    // The neighbourhoods have changed since the best bound was found.
+    std::vector<std::int64_t> reduced_costs;
+    std::int64_t bound = constant();
+    for (const AgentData& agent : agents_) {
+      if (find_walks(agent, agent.walks.forward, limits) != NgWalks::Outcome::kFound)
+        return std::nullopt;
+      reduced_costs.push_back(least_reduced_cost(agent));
+      bound += reduced_costs.back();
+    }
     std::vector<Choices> choices;
     for (const AgentData& agent : agents_) {
       if (find_walks(agent, agent.walks.forward, limits) != NgWalks::Outcome::kFound)
         return std::nullopt;
-      const std::int64_t others = best_.bound - least_reduced_cost(agent);
-      const std::int64_t most = std::min(cutoff - 1, kMaxCost) * kUnit - others;  // for the agent
+      const std::int64_t others = bound - reduced_costs[choices.size()];
+      const std::int64_t most =
+          cutoff >= kInfiniteCost ? kNoWalk - 1 : (cutoff - 1) * kUnit - others;  // for the agent
       choices.push_back({.visits = {}, .goals = goals_within(agent, most)});
       if (!add_visits_within(agent, most, limits, choices.back().visits)) return std::nullopt;
     }
@@ -113,14 +128,14 @@ class RouteBound::Relaxation {
   // Local search from the rounded multipliers: some of those whose condition the walks do not meet
   // change by a step.
   std::optional<Multipliers> rounded(const Limits& limits) {
-    if (best_.on_visits.empty()) return std::nullopt;
-    on_visits_ = best_.on_visits;
-    on_goals_ = best_.on_goals;
+    if (!best_) return std::nullopt;
+    on_visits_ = best_->on_visits;
+    on_goals_ = best_->on_goals;
     for (std::int64_t& multiplier : on_visits_)
       multiplier = (multiplier + kUnit / 2) / kUnit * kUnit;
     for (std::int64_t& multiplier : on_goals_)
       multiplier = (multiplier + kUnit / 2) / kUnit * kUnit;
-    Best best;
+    std::optional<Best> best;
     Random random(0);
     for (int round = 0; round < kRoundings; ++round) {
       switch (evaluate(kNoWalk, limits)) {
@@ -132,11 +147,11 @@ class RouteBound::Relaxation {
         case NgWalks::Outcome::kFound:
           break;
       }
-      if (best.on_visits.empty() || bound_ >= best.bound) {
+      if (!best || bound_ >= best->bound) {
         best = {bound_, on_visits_, on_goals_};
       } else {
-        on_visits_ = best.on_visits;
-        on_goals_ = best.on_goals;
+        on_visits_ = best->on_visits;
+        on_goals_ = best->on_goals;
         evaluate(kNoWalk, limits);
       }
       const auto vary = [&](std::int64_t& multiplier, std::int64_t direction) {
@@ -148,9 +163,9 @@ class RouteBound::Relaxation {
     }
     Multipliers result;
     for (TaskIndex task = 0; task < instance_.task_count(); ++task)
-      result.on_visits.push_back(static_cast<Time>(best.on_visits[task] / kUnit));
+      result.on_visits.push_back(static_cast<Time>(best->on_visits[task] / kUnit));
     for (std::size_t i = 0; i < places_.size(); ++i)
-      result.on_goals.emplace_back(places_[i], static_cast<Time>(best.on_goals[i] / kUnit));
+      result.on_goals.emplace_back(places_[i], static_cast<Time>(best->on_goals[i] / kUnit));
     return result;
   }
 
@@ -219,9 +234,7 @@ class RouteBound::Relaxation {
     const std::int64_t end = effort() + max_effort;
     visits_.assign(needs_.size(), 0);
     uses_.assign(places_.size(), 0);
-    bound_ = 0;
-    for (std::size_t i = 0; i < needs_.size(); ++i) bound_ += needs_[i] * on_visits_[i];
-    for (const std::int64_t multiplier : on_goals_) bound_ -= multiplier;
+    bound_ = constant();
     for (AgentData& agent : agents_) {
       const auto outcome = find_walks(agent, agent.walks.forward, limits, end - effort());
       if (outcome == NgWalks::Outcome::kNegativeCycle)
@@ -233,6 +246,14 @@ class RouteBound::Relaxation {
         agent.walks.forbid_cycle(costs_, cycle);
     }
     return NgWalks::Outcome::kFound;
+  }
+
+  // The part of the bound that does not depend on the walks.
+  std::int64_t constant() const {
+    std::int64_t sum = 0;
+    for (std::size_t i = 0; i < needs_.size(); ++i) sum += needs_[i] * on_visits_[i];
+    for (const std::int64_t multiplier : on_goals_) sum -= multiplier;
+    return sum;
   }
 
   NgWalks::Outcome find_walks(const AgentData& agent, const NgStops& stops, const Limits& limits,
@@ -354,10 +375,9 @@ class RouteBound::Relaxation {
   // The multipliers give no bound: moves them towards the best ones, or towards 0.
   void retreat() {
     for (std::size_t i = 0; i < on_visits_.size(); ++i)
-      on_visits_[i] = best_.on_visits.empty() ? on_visits_[i] * 7 / 8
-                                              : (on_visits_[i] + best_.on_visits[i]) / 2;
-    for (std::size_t i = 0; i < best_.on_goals.size(); ++i)
-      on_goals_[i] = (on_goals_[i] + best_.on_goals[i]) / 2;
+      on_visits_[i] = best_ ? (on_visits_[i] + best_->on_visits[i]) / 2 : on_visits_[i] * 7 / 8;
+    for (std::size_t i = 0; best_ && i < on_goals_.size(); ++i)
+      on_goals_[i] = (on_goals_[i] + best_->on_goals[i]) / 2;
   }
 
   const RouteCosts& costs_;
@@ -368,7 +388,7 @@ class RouteBound::Relaxation {
   std::vector<AgentData> agents_;
   std::vector<std::int64_t> on_visits_;  // multipliers by condition
   std::vector<std::int64_t> on_goals_;   // and by index in places_
-  Best best_;
+  std::optional<Best> best_;
   double factor_ = kFirstFactor;
   int failures_ = 0;        // steps since the last progress
   bool has_grown_ = false;  // a neighbourhood has, in the last evaluation without a minimum

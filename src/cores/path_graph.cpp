@@ -7,10 +7,11 @@
 // the same time of the last arrival, and at most the same cost.* *Proof.* Split the path at its
 // last arrival. Before it, the path is a walk on the way: grow() extends the costs to go until they
 // cover all sequences within the cost, and a path that counts each stop as early as possible passes
-// only known stages (mdd.cpp). After it, waits are pointless: without them the agent is on the
-// same place at the same times, forever, does the same tasks, and finishes no later. For the same
-// reason an agent that may rest does nothing more, unless it can execute a task on the place. A
-// node is dropped only if its time plus a lower bound on the remaining cost exceeds the cost.
+// only known stages (mdd.cpp; with prices: that counts its set of stops as early as possible).
+// After it, waits are pointless: without them the agent is on the same place at the same times,
+// forever, does the same tasks, and finishes no later. For the same reason an agent that may rest
+// does nothing more, unless it can execute a task on the place. A node is dropped only if its time
+// plus a lower bound on the remaining cost exceeds the cost.
 //
 // *All successors.* The costs to go cover all routes of cost latest_ or less, so if time + distance
 // <= latest_, no unknown route is shorter, and the distance is a lower bound at all later calls

@@ -284,26 +284,29 @@ void PathModel::add_at_most(std::vector<Literal> literals, std::size_t count) {
   }
 }
 
+bool PathModel::pays_for(AgentIndex agent, Place goal) const {
+  const std::optional<AgentPrices>& prices = prices_->agents[agent];
+  return prices &&
+         std::ranges::find(prices->goals, goal, &AgentPrices::Goal::place) != prices->goals.end();
+}
+
 std::vector<PathModel::UnusedGoal> PathModel::take_unused_goals() {
   std::vector<UnusedGoal> unused;
   for (std::size_t i = 0; i < is_goal_returned_.size(); ++i) {
     const AgentPrices::Goal& goal = prices_->goals[i];
-    const auto ends_there = [&](const Agent& agent) {
-      return agent.graph->place(agent.walk.back()) == goal.place;
+    std::vector<AgentIndex> payers;
+    for (AgentIndex agent = 0; agent < std::ssize(agents_); ++agent)
+      if (pays_for(agent, goal.place)) payers.push_back(agent);
+    const auto ends_there = [&](AgentIndex agent) {
+      return agents_[agent].graph->place(agents_[agent].walk.back()) == goal.place;
     };
-    if (is_goal_returned_[i] || std::ranges::any_of(agents_, ends_there)) continue;
+    if (is_goal_returned_[i] || std::ranges::any_of(payers, ends_there)) continue;
     is_goal_returned_[i] = true;
-    UnusedGoal found{goal.price, solver_.new_variable(FormulaKind::kMeets, {}), {}};
+    UnusedGoal found{goal.price, solver_.new_variable(FormulaKind::kMeets, {}), payers};
     std::vector<Literal> clause{-found.is_used};
-    for (AgentIndex agent = 0; agent < std::ssize(agents_); ++agent) {
-      const std::optional<AgentPrices>& prices = prices_->agents[agent];
-      if (!prices || std::ranges::find(prices->goals, goal.place, &AgentPrices::Goal::place) ==
-                         prices->goals.end())
-        continue;
-      found.agents.push_back(agent);
+    for (const AgentIndex agent : payers)
       clause.push_back(
           clauses_of(agent).satisfies({goal.place, kNoCell, 0, kNever, ConstraintKind::kRestBy}));
-    }
     solver_.add(clause);
     unused.push_back(std::move(found));
   }

@@ -64,7 +64,8 @@ class PathModel {
   // agents keep a path of least cost.
   std::vector<AgentIndex> take_new_agents() { return std::exchange(new_agents_, {}); }
 
-  // With prices, after a model without conflicts: the goals with a price that no path uses, without
+  // With prices, after a model without conflicts: the goals with a price on which no agent that
+  // would pay for it ends, without
   // those that were returned before. Each of them adds its price to the cost of the plan, unless
   // `is_used` is true, a literal that depends on `agents`.
   struct UnusedGoal {
@@ -113,6 +114,7 @@ class PathModel {
   };
 
   std::optional<Time> least_cost(AgentStops& stops);
+  bool pays_for(AgentIndex agent, Place goal) const;
   int visits_of(const Prices::Need& need, bool without_path) const;
   std::int64_t add_needs();
   void add_at_most(std::vector<Literal> literals, std::size_t count);

@@ -109,7 +109,8 @@ class DestinationChooser {
       for (Ends& ends : ends_)
         if (!ends.extend(reach, limits_)) return std::nullopt;
       const auto assignment = min_cost_assignment(costs());
-      if (is_best(assignment)) return assignment ? finish(chosen, assignment->columns) : std::nullopt;
+      if (is_best(assignment))
+        return assignment ? finish(chosen, assignment->columns) : std::nullopt;
     }
   }
 

@@ -27,7 +27,7 @@ struct AgentPrices {
 
 // Prices for an instance in which agents may leave out stops. The stops that agents count must
 // satisfy `needs`. The cost of a plan is the sum of the prices of its paths, plus the prices of the
-// goals that no agent uses, minus `constant`.
+// goals for which no agent pays, minus `constant`.
 struct Prices {
   // The visits of one task: by agents, with the position of the task in Agent::stops.
   struct Visit {

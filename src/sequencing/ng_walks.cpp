@@ -3,8 +3,8 @@
 //
 // *Dominance.* A label is dropped if another label at the same stop costs no more, has the same
 // always remembered visits, and remembers no neighbour except the stop itself: each walk that
-// extends the first extends the second, too. (A leg that only labels with some memory make must
-// have an alternative for the others that costs no more.)
+// extends the first extends the second, too. If legs are only for labels with some memory, this
+// need not hold, but the least cost is still a lower bound for routes (assignment/agent_walks.cpp).
 //
 // If labels have no least cost, the parents of some label form a cycle (Cherkassky and Goldberg
 // 1999), which is tested from time to time.

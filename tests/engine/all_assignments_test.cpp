@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "assignment/assignment_search.h"
 #include "assignment/route_bound.h"
@@ -74,6 +77,28 @@ TEST(AllAssignments, AgreesWithTheOracle) {
   }
   EXPECT_GT(instances, 100);
   EXPECT_GT(2 * solved, instances);
+}
+
+// An agent that does not pay for a goal rests on it.
+TEST(AllAssignments, IdleAgentOnAGoalWithAPrice) {
+  constexpr int kWidth = 6;
+  const auto place = [](int x, int y) { return Place{y * kWidth + x}; };
+  InstanceBuilder builder(Grid(kWidth, 3, std::vector<bool>(3 * kWidth, true)));
+  builder.add_agent("idle", place(2, 1), std::nullopt);
+  for (const int x : {1, 3})
+    builder.add_agent({.id = "a" + std::to_string(x),
+                       .start = {.place = place(x, 1)},
+                       .goal = {},
+                       .goals = std::vector<Place>{place(2, 1), place(0, 0), place(5, 0)}});
+  const Instance instance = std::move(builder).build();
+  const oracle::Answer truth = oracle::solve_jointly(instance);
+  for (const Cost more : {1, 2, 5}) {
+    const auto found = search(instance, truth.plan->cost + more, 100'000);
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(found->is_over);
+    EXPECT_EQ(found->cost, truth.plan->cost);
+    EXPECT_EQ(found->lower_bound, truth.plan->cost);
+  }
 }
 
 }  // namespace all_assignments_test
