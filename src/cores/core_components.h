@@ -14,9 +14,10 @@
 
 namespace grove::detail {
 
-// The agents of each core are in one component; components are joined by the cores that they share
-// agents with. The head of core_search.cpp proves that the agents of a component cost at least as
-// much more than individually as their cores have raised the bound. One thread at a time.
+// Groups of agents that share cores: a core whose agents are in several components joins them. The
+// agents of a component together cost at least the sum of their least costs plus the amount by
+// which the cores of the component have raised the bound (proof: core_search.cpp). One thread at a
+// time.
 class CoreComponents {
  public:
   // Maximum number of agents in a statement of take_excesses().

@@ -82,7 +82,7 @@ CoreSearch::Outcome CoreSearch::step(Cost cutoff) {
   cutoff_ = cutoff;
   if (limits_.stop_requested()) return Outcome::kStopped;
   if (is_set_up() && lower_bound_ >= cutoff_) return Outcome::kSolved;
-  if (model_.bytes() > max_bytes_) return Outcome::kExhausted;
+  if (model_.bytes() > max_bytes_) return Outcome::kTooLarge;
   switch (phase_) {
     case Phase::kSetUp:
       return set_up();
@@ -99,7 +99,7 @@ CoreSearch::Outcome CoreSearch::step(Cost cutoff) {
 }
 
 CoreSearch::Outcome CoreSearch::set_up() {
-  if (model_.plan_next_agent() != PathModel::Outcome::kDone) return stopped_or(Outcome::kExhausted);
+  if (model_.plan_next_agent() != PathModel::Outcome::kDone) return stopped_or(Outcome::kTooLarge);
   if (model_.is_complete()) {
     lower_bound_ = model_.least_sum();
     phase_ = Phase::kSolve;
@@ -167,7 +167,7 @@ CoreSearch::Outcome CoreSearch::use_model() {
     deferred_.clear();
     return Outcome::kWorking;
   }
-  if (!model_.has_all_paths()) return Outcome::kExhausted;
+  if (!model_.has_all_paths()) return Outcome::kTooLarge;
   if (choices_.prices && add_unused_goals()) return Outcome::kWorking;
   plan_ = choices_.prices ? choices_.make_plan(model_.counted_paths()) : model_.plan();
   GROVE_CHECK(plan_->cost <= lower_bound_, "a model of all soft literals costs the bound");
@@ -276,7 +276,7 @@ CoreSearch::Outcome CoreSearch::relax() {
   if (soft.agent >= 0) {
     const PathModel::Outcome outcome = raise(soft);
     if (outcome == PathModel::Outcome::kWorking) return Outcome::kWorking;
-    if (outcome != PathModel::Outcome::kDone) return stopped_or(Outcome::kExhausted);
+    if (outcome != PathModel::Outcome::kDone) return stopped_or(Outcome::kTooLarge);
   } else if (soft.totalizer >= 0 &&
              soft.count + 1 < counts_[soft.totalizer].totalizer.input_count()) {
     replacements_.push_back(count_soft(soft.totalizer, soft.count + 1));

@@ -36,9 +36,9 @@ class CoreSearch {
  public:
   enum class Outcome : std::uint8_t {
     kWorking,
-    kSolved,     // plan() costs lower_bound(), or no plan costs less than the cutoff
-    kExhausted,  // the search can prove nothing more: it would need too much memory
-    kStopped,    // a limit was reached
+    kSolved,    // plan() costs lower_bound(), or no plan costs less than the cutoff
+    kTooLarge,  // the search can prove nothing more: it would need too much memory
+    kStopped,   // a limit was reached
   };
 
   // All arguments must outlive this object, except `stops`, which is copied. Uses at most about

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Graph of the paths of one agent whose cost exceeds the least cost by a limited amount.
+// MDD of one agent for a range of costs: its paths that cost at most the least cost plus some
+// excess.
 #pragma once
 
 #include <cstddef>

@@ -192,7 +192,7 @@ TEST(CoreSearch, StopsAtItsMemoryLimit) {
   CoreSearch search(problem, stops, Techniques::defaults(), 1, limits);
   Outcome outcome = Outcome::kWorking;
   while (outcome == Outcome::kWorking) outcome = search.step(kInfiniteCost);
-  EXPECT_EQ(outcome, Outcome::kExhausted);
+  EXPECT_EQ(outcome, Outcome::kTooLarge);
   EXPECT_FALSE(search.plan());
 }
 
