@@ -184,12 +184,14 @@ class ChoicesRun {
 
   Solution finish() {
     if (all_) end_all();
-    if (!limits_.stop_requested() || is_over()) best_.stats.texts.erase("stopped_by");
-    if (!is_over())
-      best_.stats.texts["remark"] = fmt::format(
-          "assignments searched: {}; the lower bound is for all assignments", searched_);
-    else
-      best_.stats.texts.erase("remark");
+    auto& texts = best_.stats.texts;
+    texts.erase("stopped_by");
+    texts.erase("remark");
+    if (is_over()) return std::move(best_);
+    if (limits_.stop_requested()) texts["stopped_by"] = stop_text(limits_.reason());
+    texts["remark"] = fmt::format(
+        "assignments searched: {}{}; the lower bound holds for all assignments", searched_,
+        limits_.stop_requested() ? "" : ", no further one found that could be cheaper");
     return std::move(best_);
   }
 
