@@ -9,10 +9,9 @@
 
 namespace grove::detail {
 
-// Improves the routes (Shaw 1998; Ropke and Pisinger 2006): removes optional visits of tasks that
-// are close to each other and inserts them again, until `insertions` insertions into a route have
-// been tried or a limit is reached. Routes never become more expensive. `costs` must be those of
-// the routes. Repeatable.
+// Improves the routes by slack induction by string removals (Christiaens and Vanden Berghe 2020),
+// until `insertions` insertions into a route have been tried or a limit is reached. The result
+// never costs more than the given routes. `costs` must be those of the routes. Repeatable.
 void improve_routes(Routes& routes, const RouteCosts& costs, std::int64_t insertions,
                     std::uint64_t seed, const Limits& limits);
 

@@ -33,10 +33,10 @@ namespace {
 
 constexpr int kPasses = 3;  // of large neighbourhood search and choice of goals
 // Insertions into a route that are tried per pass: per task and agent, and at most (about 0.1 s).
-constexpr std::int64_t kInsertionsEach = 1000;
+constexpr std::int64_t kInsertionsEach = 2000;
 constexpr int kAttempts = 10;  // to find another assignment
 constexpr Time kMaxNoise = 4;  // steps
-constexpr std::int64_t kMaxInsertions = 1'000'000;
+constexpr std::int64_t kMaxInsertions = 2'000'000;
 
 // Inserts visits in the order of regret.
 class RegretInsertion {

@@ -33,8 +33,13 @@ RouteCosts::RouteCosts(const Instance& instance, const DistanceFields& distances
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     const Agent& agent = instance.agent(i);
     for (const Place goal : agent.destinations()) {
-      const auto [field, is_new] = goals_.try_emplace({goal, agent.kind, agent.goal_heading});
-      if (is_new) field->second = distance_field(world, states_at_rest(instance, i, goal));
+      const auto [known, is_new] = goals_.try_emplace({goal, agent.kind, agent.goal_heading});
+      if (!is_new) continue;
+      Goal& made = known->second;
+      made.distances = distance_field(world, states_at_rest(instance, i, goal));
+      for (const Task& task : instance.tasks())
+        made.legs.push_back(
+            min_distance_from(world, task.cell, agent.kind, DistanceView(made.distances)));
     }
   }
 }

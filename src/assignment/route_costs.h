@@ -29,20 +29,23 @@ class RouteCosts {
   }
   // The leg to `goal`, where the agent comes to rest, from its start or from a task.
   Time start_to_goal(AgentIndex agent, Place goal) const {
-    return to_goal(agent, goal)[instance_.agent(agent).start];
+    return of_goal(agent, goal).distances[instance_.agent(agent).start];
   }
   Time to_goal(AgentIndex agent, TaskIndex from, Place goal) const {
-    const DistanceField& field = to_goal(agent, goal);
-    const StateRange bases =
-        instance_.world().bases(instance_.task(from).cell, instance_.agent(agent).kind);
-    Time least = kNever;
-    for (State state = bases.first; state < bases.end; ++state)
-      least = std::min(least, field[state]);
-    return least;
+    return legs_to_goal(agent, goal)[from];
+  }
+  // The legs to `goal` from all tasks.
+  const std::vector<Time>& legs_to_goal(AgentIndex agent, Place goal) const {
+    return of_goal(agent, goal).legs;
   }
 
  private:
-  const DistanceField& to_goal(AgentIndex agent, Place goal) const {
+  struct Goal {
+    DistanceField distances;
+    std::vector<Time> legs;  // by task
+  };
+
+  const Goal& of_goal(AgentIndex agent, Place goal) const {
     const Agent& a = instance_.agent(agent);
     return goals_.at({goal, a.kind, a.goal_heading});
   }
@@ -51,7 +54,7 @@ class RouteCosts {
   const DistanceFields& distances_;
   std::size_t tasks_;
   std::vector<std::vector<Time>> legs_;  // by kind, then first task and second task
-  std::map<std::tuple<Place, int, std::optional<Heading>>, DistanceField> goals_;
+  std::map<std::tuple<Place, int, std::optional<Heading>>, Goal> goals_;
 };
 
 }  // namespace grove::detail

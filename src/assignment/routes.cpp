@@ -19,8 +19,18 @@ Routes::Routes(const RouteCosts& costs)
     : costs_(&costs),
       instance_(&costs.instance()),
       stops_(instance_->agents().size()),
-      goals_(instance_->agents().size()) {
-  for (AgentIndex i = 0; i < instance_->agent_count(); ++i) goals_[i] = instance_->agent(i).goal;
+      goals_(instance_->agents().size()),
+      legs_to_rest_(instance_->agents().size()) {
+  for (AgentIndex i = 0; i < instance_->agent_count(); ++i) {
+    goals_[i] = instance_->agent(i).goal;
+    starts_at_work_.push_back(task_at_start(*instance_, i).has_value());
+  }
+  find_legs_to_rest();
+}
+
+void Routes::find_legs_to_rest() {
+  for (AgentIndex i = 0; i < instance_->agent_count(); ++i)
+    legs_to_rest_[i] = goals_[i] ? &costs_->legs_to_goal(i, *goals_[i]) : nullptr;
 }
 
 bool Routes::visits(AgentIndex agent, TaskIndex task) const {
@@ -32,21 +42,6 @@ Cost Routes::cost() const {
   for (AgentIndex agent = 0; agent < instance_->agent_count(); ++agent)
     for (std::size_t at = 0; at <= stops_[agent].size(); ++at) sum += leg(agent, at);
   return sum;
-}
-
-Insertion Routes::cheapest(AgentIndex agent, TaskIndex task) const {
-  const std::vector<TaskIndex>& stops = stops_[agent];
-  Insertion best;
-  if (stops.size() >= kMaxTasksPerAgent || visits(agent, task)) return best;
-  for (std::size_t at = first_position(agent, task); at <= stops.size(); ++at) {
-    const Time before =
-        at == 0 ? costs_->from_start(agent, task) : costs_->between(agent, stops[at - 1], task);
-    const Time after = leg_from(agent, task, at);
-    if (before >= kNever || after >= kNever) continue;
-    const Time cost = before + after - leg(agent, at);
-    if (cost < best.cost) best = {cost, at};
-  }
-  return best;
 }
 
 void Routes::insert(AgentIndex agent, TaskIndex task, std::size_t position) {
@@ -72,14 +67,16 @@ bool Routes::choose_goals(Time noise, std::uint64_t seed) {
     return Cost{leg} + random.below(noise + 1);
   };
   auto choice = cheapest_goals(*instance_, cost);
-  if (choice) goals_ = std::move(choice->goals);
-  return choice.has_value();
+  if (!choice) return false;
+  goals_ = std::move(choice->goals);
+  find_legs_to_rest();
+  return true;
 }
 
 // An agent that starts at work completes its task first.
 std::size_t Routes::first_position(AgentIndex agent, TaskIndex task) const {
-  const auto begun = task_at_start(*instance_, agent);
-  return !begun || *begun == task || stops_[agent].empty() ? 0 : 1;
+  if (!starts_at_work_[agent] || stops_[agent].empty()) return 0;
+  return task_at_start(*instance_, agent) == task ? 0 : 1;
 }
 
 // The leg into position `at` of the route, i.e. from the stop before it.
@@ -107,7 +104,7 @@ Time Routes::start_to_rest(AgentIndex agent) const {
 }
 
 Time Routes::to_rest(AgentIndex agent, TaskIndex from) const {
-  return goals_[agent] ? costs_->to_goal(agent, from, *goals_[agent]) : 0;
+  return legs_to_rest_[agent] ? (*legs_to_rest_[agent])[from] : 0;
 }
 
 }  // namespace grove::detail

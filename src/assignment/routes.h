@@ -38,7 +38,12 @@ class Routes {
   // The sum of the costs of all routes.
   Cost cost() const;
 
-  Insertion cheapest(AgentIndex agent, TaskIndex task) const;
+  Insertion cheapest(AgentIndex agent, TaskIndex task) const {
+    return cheapest(agent, task, [] { return true; });
+  }
+  // Considers the positions for which `consider` returns true.
+  template <class Consider>
+  Insertion cheapest(AgentIndex agent, TaskIndex task, Consider consider) const;
   void insert(AgentIndex agent, TaskIndex task, std::size_t position);
   void set_stops(AgentIndex agent, std::vector<TaskIndex> stops) {
     stops_[agent] = std::move(stops);
@@ -55,6 +60,7 @@ class Routes {
   Time leg_to_goal(AgentIndex agent, Place goal) const;
 
  private:
+  void find_legs_to_rest();
   std::size_t first_position(AgentIndex agent, TaskIndex task) const;
   Time leg(AgentIndex agent, std::size_t at) const;
   Time leg_from(AgentIndex agent, TaskIndex task, std::size_t at) const;
@@ -65,6 +71,27 @@ class Routes {
   const Instance* instance_;
   std::vector<std::vector<TaskIndex>> stops_;  // by AgentIndex
   std::vector<std::optional<Place>> goals_;
+  std::vector<const std::vector<Time>*>
+      legs_to_rest_;  // by AgentIndex, then task; nullptr: no goal
+  std::vector<bool> starts_at_work_;
 };
+
+template <class Consider>
+Insertion Routes::cheapest(AgentIndex agent, TaskIndex task, Consider consider) const {
+  const std::vector<TaskIndex>& stops = stops_[agent];
+  Insertion best;
+  if (stops.size() >= kMaxTasksPerAgent || visits(agent, task)) return best;
+  Time before = kNever;
+  for (std::size_t at = 0; at <= stops.size(); ++at) {
+    before =
+        at == 0 ? costs_->from_start(agent, task) : costs_->between(agent, stops[at - 1], task);
+    if (at < first_position(agent, task) || !consider()) continue;
+    const Time after = leg_from(agent, task, at);
+    if (before >= kNever || after >= kNever) continue;
+    const Time cost = before + after - leg(agent, at);
+    if (cost < best.cost) best = {cost, at};
+  }
+  return best;
+}
 
 }  // namespace grove::detail
