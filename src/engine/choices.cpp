@@ -38,7 +38,8 @@ constexpr std::int64_t kBoundEffort = 150'000'000;
 constexpr double kBoundShare = 0.2;
 constexpr std::int64_t kAllEffort = 2'000'000;  // per further assignment
 constexpr Cost kMarginOffset = 100;  // after a failure the margin is at most half of this + bound
-constexpr int kMaxFailures = 200;    // assignments in succession that lead to no cheaper plan
+constexpr int kFailuresWithoutAssignment = 20;  // that count if no assignment is found
+constexpr int kMaxFailures = 200;  // assignments in succession that lead to no cheaper plan
 
 Solution infeasible(const SolveOptions& options, const std::string& reason, RunObserver& observer) {
   observer.on_infeasible(reason);
@@ -102,7 +103,7 @@ class ChoicesRun {
       if (!has_assignment) continue;
       const auto other = assignments.next(cost(), limits_);
       if (!other) {
-        ++failures;
+        failures += kFailuresWithoutAssignment;
         continue;
       }
       const Cost before = cost();
