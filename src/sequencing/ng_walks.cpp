@@ -21,20 +21,20 @@ namespace {
 
 constexpr std::int32_t kRoundsPerTest = 8;
 constexpr std::size_t kMaxIndexed = 256;  // stops with an index of positions
-constexpr std::int8_t kNone = -1;
+constexpr std::int8_t kNotFound = -1;
 
 }  // namespace
 
 std::int8_t NgStops::find(std::int32_t at, std::int32_t stop) const {
   const std::vector<std::int32_t>& near = stops[at].neighbors;
   const auto found = std::ranges::find(near, stop);
-  return found == near.end() ? kNone : static_cast<std::int8_t>(found - near.begin());
+  return found == near.end() ? kNotFound : static_cast<std::int8_t>(found - near.begin());
 }
 
 void NgStops::add_neighbor(std::int32_t at, std::int32_t stop) {
   GROVE_ASSERT(std::ssize(stops[at].neighbors) < neighbors, "the neighbourhood has room");
   const std::size_t count = stops.size();
-  if (positions_.empty() && count <= kMaxIndexed) positions_.assign(count * count, kNone);
+  if (positions_.empty() && count <= kMaxIndexed) positions_.assign(count * count, kNotFound);
   if (!positions_.empty())
     positions_[static_cast<std::size_t>(at) * count + static_cast<std::size_t>(stop)] =
         static_cast<std::int8_t>(stops[at].neighbors.size());
