@@ -64,7 +64,7 @@ class OneAtATime(Outputs):
         (self.folder / "x.plan.json").write_text("{}")
         (self.folder / "link").symlink_to("x.plan.json")     # a link to the same file
         running = self.start("solve", self.hard, "--omega", 0, "--time-limit", TIMEOUT_S, *words)
-        self.read_until(running, "lower bound")
+        self.read_until(running, " %")     # the first plan
         for option, name in outputs.items():
             mine = ["-o", "y.plan.json"] if option != "-o" else []
             done = self.run_it("solve", QUICK, option, name, *mine)
@@ -80,7 +80,8 @@ class OneAtATime(Outputs):
         output, _ = running.communicate(timeout=TIMEOUT_S)
         self.assertEqual(running.returncode, 0, output)
         self.assertEqual([path.name for path in self.folder.iterdir() if path.name.startswith(".grove-")], [])
-        self.assertEqual(self.run_it("check", self.hard, "x.plan.json").returncode, 0)
+        checked = self.run_it("check", self.hard, "x.plan.json")
+        self.assertEqual(checked.returncode, 0, checked.stderr + output)
 
     def test_lock_of_a_killed_run_does_not_block_the_next(self):
         running = self.start("solve", self.hard, "--omega", 0, "--time-limit", TIMEOUT_S, "-o", "x.plan.json")
