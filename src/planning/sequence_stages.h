@@ -239,7 +239,7 @@ class SequenceStages {
       best = s.price + to_rest(s, state);
       if (s.left == 0) return best;
     }
-    for (const Onward& o : std::span(&onward_[s.first], static_cast<std::size_t>(s.nearest)))
+    for (const Onward& o : std::span(onward_.data() + s.first, static_cast<std::size_t>(s.nearest)))
       best = std::min(best, stops_.to_port(state, o.port) + o.cost);
     return best;
   }
