@@ -34,7 +34,7 @@ struct AgentWalks {
 };
 
 // Legs that are not needed are left out; the proof is at the head of agent_walks.cpp. `neighbors`:
-// of each stop, at first and at most.
+// the initial and the greatest number of neighbours of a stop.
 AgentWalks make_agent_walks(const RouteCosts& costs, AgentIndex agent,
                             std::pair<int, int> neighbors);
 

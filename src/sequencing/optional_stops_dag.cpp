@@ -24,7 +24,8 @@ namespace grove::detail {
 namespace {
 
 constexpr int kMaxRequired = 8;
-constexpr int kNeighbors = 6;  // at first
+constexpr std::size_t kMaxReached = 8 * OptionalStopsDag::kMaxStates;  // of one layer, repeated
+constexpr int kNeighbors = 6;                                          // at first
 constexpr int kMaxNeighbors = 10;
 constexpr std::int64_t kMaxEffort = 20'000'000;  // of the reverse walks, about 0.2 s
 
@@ -64,6 +65,51 @@ ReverseWalks reverse_walks(const CostMatrix& matrix, const std::vector<Time>& sk
       walks.stops.add_neighbor(at, nearest[i].second);
   }
   return walks;
+}
+
+// A state, and the least cost up to it.
+struct Known {
+  StopSet left;
+  int at;
+  Time cost;
+};
+using Layers = std::vector<std::vector<Known>>;  // by the number of visited stops, minus 1
+
+// The states of all sequences of a price <= `limit`. `outside_bound` becomes the least bound of a
+// state that is left out. Returns nullopt if there are too many states, or if a limit was reached.
+std::optional<Layers> layers_within(const CostMatrix& matrix, const CompletionBounds& bounds,
+                                    Time limit, const Limits& limits, Time& outside_bound) {
+  Layers layers(1);
+  const auto reach = [&](std::vector<Known>& layer, StopSet left, int stop, Time cost) {
+    const Time price = add_costs(cost, bounds.from(stop, left));
+    if (price <= limit)
+      layer.push_back({left, stop, cost});
+    else
+      outside_bound = std::min(outside_bound, price);
+  };
+  for (int stop = 0; stop < matrix.stops(); ++stop)
+    reach(layers[0], matrix.all() & ~bit(stop), stop, matrix.from_start(stop));
+  std::size_t count = 0;
+  while (!layers.back().empty()) {
+    std::vector<Known>& layer = layers.back();
+    std::ranges::sort(layer, {}, [](const Known& s) { return std::tuple(s.left, s.at, s.cost); });
+    const auto same = [](const Known& a, const Known& b) {
+      return a.left == b.left && a.at == b.at;
+    };
+    layer.erase(std::unique(layer.begin(), layer.end(), same), layer.end());
+    count += layer.size();
+    if (count > OptionalStopsDag::kMaxStates) return std::nullopt;
+    std::vector<Known> next;
+    for (const Known& state : layer) {
+      if (next.size() > kMaxReached || limits.stop_requested()) return std::nullopt;
+      for_each_stop(state.left, [&](int stop) {
+        reach(next, state.left & ~bit(stop), stop,
+              add_costs(state.cost, matrix.between(state.at, stop)));
+      });
+    }
+    layers.push_back(std::move(next));
+  }
+  return layers;
 }
 
 }  // namespace
@@ -129,43 +175,10 @@ std::optional<OptionalStopsDag> OptionalStopsDag::build(const CostMatrix& matrix
                                                         const std::vector<Time>& skip,
                                                         const CompletionBounds& bounds, Time limit,
                                                         const Limits& limits) {
-  struct Known {
-    StopSet left;
-    int at;
-    Time cost;  // up to it
-  };
   OptionalStopsDag dag(kNever);
-  std::vector<std::vector<Known>> layers(1);  // by the number of visited stops, minus 1
-  const auto reach = [&](std::vector<Known>& layer, StopSet left, int stop, Time cost) {
-    const Time price = add_costs(cost, bounds.from(stop, left));
-    if (price <= limit)
-      layer.push_back({left, stop, cost});
-    else
-      dag.outside_bound_ = std::min(dag.outside_bound_, price);
-  };
-  for (int stop = 0; stop < matrix.stops(); ++stop)
-    reach(layers[0], matrix.all() & ~bit(stop), stop, matrix.from_start(stop));
-  std::size_t count = 0;
-  while (!layers.back().empty()) {
-    std::vector<Known>& layer = layers.back();
-    std::ranges::sort(layer, {}, [](const Known& s) { return std::tuple(s.left, s.at, s.cost); });
-    const auto same = [](const Known& a, const Known& b) {
-      return a.left == b.left && a.at == b.at;
-    };
-    layer.erase(std::unique(layer.begin(), layer.end(), same), layer.end());
-    count += layer.size();
-    if (count > kMaxStates) return std::nullopt;
-    std::vector<Known> next;
-    for (const Known& state : layer) {
-      if (next.size() > 8 * kMaxStates || limits.stop_requested()) return std::nullopt;
-      for_each_stop(state.left, [&](int stop) {
-        reach(next, state.left & ~bit(stop), stop,
-              add_costs(state.cost, matrix.between(state.at, stop)));
-      });
-    }
-    layers.push_back(std::move(next));
-  }
-  for (const std::vector<Known>& layer : layers)
+  const auto layers = layers_within(matrix, bounds, limit, limits, dag.outside_bound_);
+  if (!layers) return std::nullopt;
+  for (const std::vector<Known>& layer : *layers)
     for (const Known& state : layer) {
       if (dag.nodes_.empty() || dag.nodes_.back().left != state.left) {
         dag.index_.insert(state.left, static_cast<std::uint32_t>(dag.nodes_.size()));
