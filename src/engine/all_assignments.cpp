@@ -2,10 +2,7 @@
 #include "engine/all_assignments.h"
 
 #ifdef GROVE_WITH_CADICAL
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <stdexcept>
+#include <cstddef>
 #include <utility>
 
 #include "assignment/priced_instance.h"
@@ -19,17 +16,6 @@ namespace grove::detail {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{4} << 30;
-
-// Throws std::logic_error if the checker refuses the plan, because then the search has a bug.
-Plan checked(const Instance& instance, Plan plan) {
-  Solution claim;
-  claim.status = status_of(plan.cost, claim.lower_bound, claim.omega);
-  claim.plan = std::move(plan);
-  if (const auto violations = check(instance, claim, 1); !violations.empty())
-    throw std::logic_error(fmt::format("internal error: a plan of the search is wrong at {}: {}",
-                                       violations[0].json_pointer, violations[0].message));
-  return *std::move(claim.plan);
-}
 
 // The result if it is known in advance that no plan costs less than the cutoff.
 class NoPlan : public AllAssignmentsSearch {
@@ -55,7 +41,7 @@ class AllAssignmentsCores : public AllAssignmentsSearch {
         stops_(priced_.instance, problem_.distances, &priced_.prices) {
     if (!problem_.distances.complete()) return;
     const auto make_plan = [this, &instance](const std::vector<CountedPath>& paths) {
-      return checked(instance, plan_of(instance, priced_, paths));
+      return checked_plan(instance, plan_of(instance, priced_, paths));
     };
     search_ = std::make_unique<CoreSearch>(problem_, stops_, techniques_of(options),
                                            at_most_a_quarter(kMaxBytes, limits), limits, nullptr, 0,

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include "model/agent_check.h"
@@ -203,6 +204,16 @@ void require_valid_plan(const Instance& instance, const Solution& solution) {
   if (!solution.plan) return;
   std::vector<Violation> wrong = check(instance, solution, 1);
   if (!wrong.empty()) throw InvalidPlan(std::move(wrong.front()));
+}
+
+Plan checked_plan(const Instance& instance, Plan plan) {
+  Solution claim;
+  claim.status = status_of(plan.cost, claim.lower_bound, claim.omega);
+  claim.plan = std::move(plan);
+  if (const auto violations = check(instance, claim, 1); !violations.empty())
+    throw std::logic_error(fmt::format("internal error: a plan of the search is wrong at {}: {}",
+                                       violations[0].json_pointer, violations[0].message));
+  return *std::move(claim.plan);
 }
 
 }  // namespace grove::detail

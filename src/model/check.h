@@ -45,4 +45,8 @@ class InvalidPlan : public std::logic_error {
 // plan.
 void require_valid_plan(const Instance& instance, const Solution& solution);
 
+// Returns a plan of a search. Throws std::logic_error if it is not valid, because then the search
+// has a bug.
+Plan checked_plan(const Instance& instance, Plan plan);
+
 }  // namespace grove::detail

@@ -25,10 +25,7 @@
 // With w = inf only the first tree is ever instantiated (S-CBS).
 #include "search/global_bounds.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "model/assert.h"
@@ -41,20 +38,15 @@ bool GlobalBounds::post(Plan plan) {
     const std::lock_guard lock(mutex_);
     if (incumbent_ && incumbent_->cost <= plan.cost) return false;
   }
-  Solution claim;
-  claim.status = status_of(plan.cost, claim.lower_bound, claim.omega);
-  claim.plan = std::move(plan);
-  if (const auto violations = check(instance_, claim, 1); !violations.empty())
-    throw std::logic_error(fmt::format("internal error: a plan of the search is wrong at {}: {}",
-                                       violations[0].json_pointer, violations[0].message));
+  plan = checked_plan(instance_, std::move(plan));
 
   const std::lock_guard lock(mutex_);
-  if (incumbent_ && incumbent_->cost <= claim.plan->cost) return false;
+  if (incumbent_ && incumbent_->cost <= plan.cost) return false;
   const Cost bound = lower_bound_locked();
-  GROVE_CHECK(!incumbent_ || claim.plan->cost < incumbent_->cost,
+  GROVE_CHECK(!incumbent_ || plan.cost < incumbent_->cost,
               "a new incumbent is cheaper than the one before");
-  GROVE_CHECK(claim.plan->cost >= bound, "no plan costs less than the proven lower bound");
-  incumbent_ = std::move(claim.plan);
+  GROVE_CHECK(plan.cost >= bound, "no plan costs less than the proven lower bound");
+  incumbent_ = std::move(plan);
   GROVE_CHECK(lower_bound_locked() >= bound, "a new incumbent does not lower the lower bound");
   return true;
 }
