@@ -32,14 +32,6 @@
 namespace grove::detail {
 namespace {
 
-// Throws InvalidPlan if the checker refuses `plan`.
-void require_valid_plan_of(const Instance& instance, const Plan& plan) {
-  Solution solution;
-  solution.plan = plan;
-  solution.status = status_of(plan.cost, 0, solution.omega);
-  require_valid_plan(instance, solution);
-}
-
 // Observer of the search after the committed steps. Converts its plans and solutions into plans and
 // solutions of the whole instance.
 class WholePlans : public ForwardingObserver {
@@ -82,7 +74,7 @@ class WholePlans : public ForwardingObserver {
  private:
   Plan whole(const Plan& rest) const {
     Plan plan = joined(instance_, plan_, commit_, later_, rest);
-    require_valid_plan_of(instance_, plan);
+    require_valid_plan(instance_, plan);
     return plan;
   }
 
@@ -223,7 +215,7 @@ class Session::Impl {
             : *plan_;
     Remainder rest =
         grove::detail::advance(instance_, executed, steps, Rests::kAnywhere, ends_with_plan_);
-    require_valid_plan_of(rest.instance, rest.plan);
+    require_valid_plan(rest.instance, rest.plan);
     instance_ = std::move(rest.instance);
     plan_ = old_ = std::move(rest.plan);
     ends_with_plan_ = std::move(rest.ends_with_plan);

@@ -174,6 +174,14 @@ void check_claims(const Solution& solution, Cost cost, ViolationReport& report) 
                solution.omega.to_string());
 }
 
+// The plan, with the lower bound 0.
+Solution solution_with(Plan plan) {
+  Solution solution;
+  solution.status = status_of(plan.cost, solution.lower_bound, solution.omega);
+  solution.plan = std::move(plan);
+  return solution;
+}
+
 }  // namespace
 
 std::vector<Violation> check(const Instance& instance, const Solution& solution,
@@ -206,10 +214,12 @@ void require_valid_plan(const Instance& instance, const Solution& solution) {
   if (!wrong.empty()) throw InvalidPlan(std::move(wrong.front()));
 }
 
+void require_valid_plan(const Instance& instance, const Plan& plan) {
+  require_valid_plan(instance, solution_with(plan));
+}
+
 Plan checked_plan(const Instance& instance, Plan plan) {
-  Solution claim;
-  claim.status = status_of(plan.cost, claim.lower_bound, claim.omega);
-  claim.plan = std::move(plan);
+  Solution claim = solution_with(std::move(plan));
   if (const auto violations = check(instance, claim, 1); !violations.empty())
     throw std::logic_error(fmt::format("internal error: a plan of the search is wrong at {}: {}",
                                        violations[0].json_pointer, violations[0].message));

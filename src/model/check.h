@@ -44,9 +44,11 @@ class InvalidPlan : public std::logic_error {
 // Throws InvalidPlan with the first violation that check() finds. Accepts every solution without a
 // plan.
 void require_valid_plan(const Instance& instance, const Solution& solution);
+// The same for a plan without a lower bound.
+void require_valid_plan(const Instance& instance, const Plan& plan);
 
-// Returns a plan of a search. Throws std::logic_error if it is not valid, because then the search
-// has a bug.
+// Returns `plan`, which a search has found. Throws std::logic_error if the checker refuses it,
+// because then the search has a bug.
 Plan checked_plan(const Instance& instance, Plan plan);
 
 }  // namespace grove::detail
