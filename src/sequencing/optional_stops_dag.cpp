@@ -24,8 +24,9 @@ namespace grove::detail {
 namespace {
 
 constexpr int kMaxRequired = 8;
-constexpr std::size_t kMaxReached = 8 * OptionalStopsDag::kMaxStates;  // of one layer, repeated
-constexpr int kNeighbors = 6;                                          // at first
+// States of a layer, before duplicates are removed.
+constexpr std::size_t kMaxReached = 8 * OptionalStopsDag::kMaxStates;
+constexpr int kNeighbors = 6;  // at first
 constexpr int kMaxNeighbors = 10;
 constexpr std::int64_t kMaxEffort = 20'000'000;  // of the reverse walks, about 0.2 s
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <stdexcept>
 #include <string>
 
 namespace grove::detail {
@@ -295,6 +296,23 @@ TEST(Check, StopsAtTheLimit) {
   for (AgentPlan& agent : solution.plan->agents) agent.path.clear();
   EXPECT_EQ(check(instance(), solution, 2).size(), 2U);
   EXPECT_EQ(check(instance(), solution).size(), 3U);
+}
+
+TEST(Check, PlanOfSearchMustBeValid) {
+  const Plan plan = *valid_solution().plan;
+  EXPECT_EQ(checked_plan(instance(), plan).cost, 15);
+  EXPECT_NO_THROW(require_valid_plan(instance(), plan));
+  Plan wrong = plan;
+  wrong.cost -= 1;
+  EXPECT_THROW(require_valid_plan(instance(), wrong), InvalidPlan);
+  try {
+    checked_plan(instance(), wrong);
+    ADD_FAILURE() << "no exception";
+  } catch (const std::logic_error& error) {
+    EXPECT_STREQ(error.what(),
+                 "internal error: a plan of the search is wrong at /cost: the agents' costs add up "
+                 "to 15, but the plan claims 14");
+  }
 }
 
 }  // namespace check_test
