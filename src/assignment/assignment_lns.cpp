@@ -20,8 +20,8 @@
 namespace grove::detail {
 namespace {
 
-constexpr int kMaxString = 10;           // visits of one route that are removed
-constexpr int kMeanRemoved = 10;         // visits of all routes
+constexpr int kMaxString = 25;           // visits of one route that are removed
+constexpr int kMeanRemoved = 12;         // visits of all routes
 constexpr std::size_t kNeighbours = 40;  // nearest tasks of a task
 constexpr int kBlinks = 100;             // one position in this many is left out
 constexpr double kFirstTemperature = 3;  // steps

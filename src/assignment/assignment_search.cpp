@@ -27,6 +27,7 @@
 #include "assignment/assignment_lns.h"
 #include "assignment/route_costs.h"
 #include "assignment/routes.h"
+#include "model/random.h"
 
 namespace grove::detail {
 namespace {
@@ -132,7 +133,11 @@ class AssignmentSearch::Builder {
     cost_limit = std::min(cost_limit, routes_.cost() + routes_.cost() / 10 + kMaxNoise);
     for (int attempt = 0; attempt < kAttempts && !limits.stop_requested(); ++attempt) {
       Routes routes = routes_;
-      vary_routes(routes, costs_, cost_limit, insertions() / kAttempts, seed_++, limits);
+      if (routes.cost() >= cost_limit)
+        improve_routes(routes, costs_, insertions(), seed_++, limits);
+      else
+        vary_routes(routes, costs_, limit_of_variant(cost_limit), insertions() / kAttempts, seed_++,
+                    limits);
       const Time noise = static_cast<Time>(seed_ % (kMaxNoise + 1));
       if (!routes.choose_goals(noise, seed_) || routes.cost() >= cost_limit) continue;
       Assignment found = assignment(routes);
@@ -145,6 +150,14 @@ class AssignmentSearch::Builder {
   const Routes& routes() const { return routes_; }
 
  private:
+  // Between the cost of the best routes and `cost_limit`; low limits are more likely, because
+  // conflicts add to the cost.
+  Cost limit_of_variant(Cost cost_limit) {
+    const Cost range = std::max<Cost>(1, cost_limit - routes_.cost());
+    const Cost part = random_.below(static_cast<std::uint64_t>(range));
+    return routes_.cost() + 1 + part * part / range;
+  }
+
   Assignment remembered(Assignment found) {
     known_.insert(found);
     return found;
@@ -189,6 +202,7 @@ class AssignmentSearch::Builder {
   const RouteCosts costs_;
   Routes routes_;  // the best so far
   std::uint64_t seed_;
+  Random random_{seed_};
   std::set<Assignment> known_;  // returned so far
 };
 

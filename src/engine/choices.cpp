@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <new>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -62,10 +64,12 @@ Solution without_assignment(const SolveOptions& options, const Limits& limits, C
   return solution;
 }
 
-Restriction restriction(const Instance& instance, const Assignment& assignment, Cost bound) {
+Restriction restriction(const Instance& instance, const Assignment& assignment, Cost bound,
+                        Cost cutoff) {
   return {.instance = with_assignment(instance, assignment),
           .to_whole = [&](const Plan& plan) { return with_stated_visits(instance, plan); },
           .bound = bound,
+          .cutoff = cutoff,
           .plans = "plans with the chosen assignment",
           .has_no_plan = "the chosen assignment has no plan; other assignments may have one"};
 }
@@ -89,27 +93,22 @@ class ChoicesRun {
              MergedObserver& merged)
       : instance_(instance), options_(options), limits_(limits), merged_(merged) {}
 
+  // `spent`: seconds that were spent on the bound.
   Solution run(AssignmentSearch& assignments, const Assignment& first, RouteBound& route_bound,
-               Cost bound) {
+               Cost bound, double spent) {
     bound_ = bound;
+    if (!options_.deterministic) spent_on_bounds_ = spent;
     if (!can_price_choices(instance_)) cutoff_margin_ = 0;
-    best_ = solve_one(first, cutoff_margin_ > 0 ? kFirstShareWithAll : kFirstShare);
-    int failures = 0;
-    while (!limits_.stop_requested() && !is_over()) {
-      const bool has_all = search_all(route_bound);
-      if (is_over()) break;
-      const bool has_assignment = failures < kMaxFailures;
-      if (!has_all && !has_assignment) break;
-      if (!has_assignment) continue;
-      const auto other = assignments.next(cost(), limits_);
-      if (!other) {
-        failures += kFailuresWithoutAssignment;
-        continue;
-      }
-      const Cost before = cost();
-      best_ = merged_result(
-          best_, solve_one(*other, cutoff_margin_ > 0 ? kOtherShareWithAll : kOtherShare));
-      failures = cost() < before ? 0 : failures + 1;
+    best_ = solve_one(first, can_search_all() ? kFirstShareWithAll : kFirstShare);
+    while (!limits_.stop_requested() && !is_over() && (can_search_all() || can_search_next())) {
+      const bool is_turn_of_bounds =
+          can_search_all() && (spent_on_bounds_ <= spent_on_plans_ || !can_search_next());
+      const auto start = limits_.now();
+      if (is_turn_of_bounds)
+        search_all(route_bound);
+      else
+        search_next(assignments);
+      (is_turn_of_bounds ? spent_on_bounds_ : spent_on_plans_) += seconds_since(start);
     }
     return finish();
   }
@@ -124,17 +123,40 @@ class ChoicesRun {
   Cost cost() const { return incumbent().value_or(kInfiniteCost); }
 
   Solution solve_one(const Assignment& assignment, double share) {
-    ++searched_;
+    searched_.insert(assignment);
     const Limits part = part_of(limits_, options_, share);
-    return solve_restriction(restriction(instance_, assignment, bound_), options_, part, merged_);
+    return solve_restriction(restriction(instance_, assignment, bound_, cost()), options_, part,
+                             merged_);
   }
 
-  // Returns false if the search over all assignments is over, or is not possible. It first
-  // considers all plans below the incumbent. If these are too many, it considers only plans that
-  // cost less than the bound plus `cutoff_margin_`. If it proves that there are none, the bound
-  // rises to this cutoff, and the step repeats.
-  bool search_all(RouteBound& route_bound) {
-    if (cutoff_margin_ == 0) return false;
+  bool can_search_all() const { return cutoff_margin_ > 0; }
+  bool can_search_next() const { return failures_ < kMaxFailures; }
+
+  // Deterministic runs count calls instead.
+  double seconds_since(Limits::Clock::time_point start) const {
+    if (options_.deterministic) return 1;
+    return std::chrono::duration<double>(limits_.now() - start).count();
+  }
+
+  // Searches another assignment: that of a model of all assignments, or a variant of good routes.
+  void search_next(AssignmentSearch& assignments) {
+    std::optional<Assignment> next = all_ ? all_->take_assignment() : std::nullopt;
+    if (!next || searched_.contains(*next)) next = assignments.next(cost(), limits_);
+    if (!next) {
+      failures_ += kFailuresWithoutAssignment;
+      return;
+    }
+    const Cost before = cost();
+    best_ =
+        merged_result(best_, solve_one(*next, can_search_all() ? kOtherShareWithAll : kOtherShare));
+    failures_ = cost() < before ? 0 : failures_ + 1;
+  }
+
+  // Searches all assignments for a while. It first considers all plans below the incumbent. If
+  // these are too many, it considers only plans that cost less than the bound plus
+  // `cutoff_margin_`. If it proves that there are none, the bound rises to this cutoff, and the
+  // step repeats.
+  void search_all(RouteBound& route_bound) {
     if (!all_) {
       cutoff_ = cutoff_margin_ < cost() - bound_ ? bound_ + cutoff_margin_ : cost();
       all_ = AllAssignmentsSearch::make(instance_, route_bound, cutoff_, options_, limits_);
@@ -142,11 +164,10 @@ class ChoicesRun {
     cutoff_ = std::min(cutoff_, cost());
     const bool is_open = all_ && all_->run(cutoff_, kAllEffort);
     if (all_) use_result_of_all();
-    if (is_open || limits_.stop_requested()) return is_open;
+    if (is_open || limits_.stop_requested()) return;
     if (all_) end_all();
     if (bound_ < cutoff_)
       cutoff_margin_ = std::min({cutoff_margin_, cutoff_ - bound_, bound_ + kMarginOffset}) / 2;
-    return cutoff_margin_ > 0;
   }
 
   void use_result_of_all() {
@@ -191,7 +212,7 @@ class ChoicesRun {
     if (is_over()) return std::move(best_);
     if (limits_.stop_requested()) texts["stopped_by"] = stop_text(limits_.reason());
     texts["remark"] = fmt::format(
-        "assignments searched: {}{}; the lower bound holds for all assignments", searched_,
+        "assignments searched: {}{}; the lower bound holds for all assignments", searched_.size(),
         limits_.stop_requested() ? "" : ", no further one found that could be cheaper");
     return std::move(best_);
   }
@@ -205,7 +226,11 @@ class ChoicesRun {
   std::unique_ptr<AllAssignmentsSearch> all_;
   Cost cutoff_ = kInfiniteCost;         // of all_
   Cost cutoff_margin_ = kInfiniteCost;  // 0: all assignments cannot be searched
-  int searched_ = 0;
+  int failures_ = 0;                    // assignments in succession without a cheaper plan
+  // Seconds; the two take turns. In deterministic runs, calls.
+  double spent_on_bounds_ = 0;
+  double spent_on_plans_ = 0;
+  std::set<Assignment> searched_;
 };
 
 Solution assign_and_solve(const Instance& instance, const SolveOptions& options,
@@ -219,11 +244,14 @@ Solution assign_and_solve(const Instance& instance, const SolveOptions& options,
   const auto first = assignments.first(limits);
   if (!first) return without_assignment(options, limits, bound);
   RouteBound route_bound(assignments.routes());
+  const auto start = limits.now();
   route_bound.improve(kBoundEffort, part_of(limits, options, kBoundShare));
+  const std::chrono::duration<double> spent = limits.now() - start;
   bound = std::max(bound, route_bound.lower_bound());
   merged.note(
       "Searches assignments of tasks and goals; the lower bound holds for all assignments.");
-  return ChoicesRun(instance, options, limits, merged).run(assignments, *first, route_bound, bound);
+  return ChoicesRun(instance, options, limits, merged)
+      .run(assignments, *first, route_bound, bound, spent.count());
 }
 
 }  // namespace

@@ -11,8 +11,13 @@ namespace {
 
 class RestrictionStage : public Stage {
  public:
-  RestrictionStage(MergedObserver& merged, const Restriction& restriction)
-      : Stage(merged), restriction_(restriction) {}
+  RestrictionStage(MergedObserver& merged, const Restriction& restriction, const Limits& limits)
+      : Stage(merged), restriction_(restriction), limits_(limits) {}
+
+  void on_event(RunEvent event, const Progress& progress) override {
+    Stage::on_event(event, progress);
+    if (progress.lower_bound >= restriction_.cutoff) limits_.stop(StopReason::kTime);
+  }
 
   // Not forwarded, because these results hold only for the restriction.
   void on_infeasible(std::string_view) override {}
@@ -23,13 +28,14 @@ class RestrictionStage : public Stage {
   Cost proven_by(Cost) const override { return restriction_.bound; }
 
   const Restriction& restriction_;
+  const Limits& limits_;
 };
 
 }  // namespace
 
 Solution solve_restriction(const Restriction& restriction, const SolveOptions& options,
                            const Limits& limits, MergedObserver& merged) {
-  RestrictionStage stage(merged, restriction);
+  RestrictionStage stage(merged, restriction, limits);
   Solution solution = solve(restriction.instance, options, limits, &stage);
   if (solution.plan) {
     solution.plan = restriction.to_whole(*solution.plan);

@@ -15,6 +15,8 @@ struct Restriction {
   Instance instance;
   std::function<Plan(const Plan&)> to_whole;  // converts a plan to one of the whole instance
   Cost bound = 0;                             // proven: no plan of the whole instance costs less
+  // The search stops when it has proven that no plan of the restriction costs less than this.
+  Cost cutoff = kInfiniteCost;
   // For messages: the plans of the restriction, such as "plans that end on the chosen tasks", and a
   // sentence for the case that there are none.
   std::string plans;
