@@ -2,6 +2,10 @@
 // The key "agents" of a task: a list of ids, or "*".
 #pragma once
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "io/json_value.h"
 
 namespace grove::detail {
@@ -9,5 +13,11 @@ namespace grove::detail {
 // True if "agents" of `task` is "*", which stands for all agents. Throws InputError for any other
 // string, and if there is no such key.
 bool is_for_all_agents(const JsonValue& task);
+
+// Returns the ids of the agents of `task`. `all_ids` returns those of all agents of the instance.
+// Throws InputError for a value that is neither "*" nor a list of ids, and for "*" in a list unless
+// an agent has this id.
+std::vector<std::string> agents_of_task(const JsonValue& task,
+                                        const std::function<std::vector<std::string>()>& all_ids);
 
 }  // namespace grove::detail

@@ -15,7 +15,7 @@ NewTask read_task(const JsonValue& json, const Instance& instance) {
   const JsonValue cell = json.member("cell");
   task.place = instance.roadmap() ? read_vertex(*instance.roadmap(), cell)
                                   : read_pose(instance.map(), {}, cell).place;
-  task.agents = is_for_all_agents(json) ? instance.agent_ids() : json.member("agents").texts();
+  task.agents = agents_of_task(json, [&] { return instance.agent_ids(); });
   if (const auto duration = json.find("duration"))
     task.duration = static_cast<Time>(duration->integer(0, InstanceBuilder::kMaxDuration));
   return task;

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
-#include <limits>
 #include <stdexcept>
 
 #include "io/agents_entry.h"
@@ -75,9 +75,19 @@ Pose read_start_pose(const InstanceBuilder& builder, Motion motion, const JsonVa
   return pose;
 }
 
+// True for a list of cells, and for a list of ids of vertices.
+bool is_list_of_places(const InstanceBuilder& builder, const nlohmann::json& json) {
+  if (!json.is_array() || json.empty()) return false;
+  if (json.front().is_array()) return true;
+  return builder.roadmap() && json.size() > 1 &&
+         std::ranges::all_of(json, [](const auto& each) { return each.is_string(); });
+}
+
 std::optional<Place> read_goal(const InstanceBuilder& builder, const JsonValue& agent) {
   const auto goal = agent.find("goal");
   if (!goal) return std::nullopt;
+  if (is_list_of_places(builder, goal->json()))
+    goal->fail("found a list of places; expected one place, or the key 'goals' for a choice");
   if (builder.roadmap()) return read_vertex(*builder.roadmap(), *goal);
   return read_pose(builder.map(), {}, *goal).place;
 }
@@ -87,8 +97,11 @@ std::vector<Place> read_goals(const InstanceBuilder& builder, const JsonValue& a
   std::vector<Place> places;
   const auto goals = agent.find("goals");
   if (!goals) return places;
-  if (!goals->json().is_array() || goals->size() == 0)
-    goals->fail_expected("a list of at least one place");
+  if (!goals->json().is_array()) goals->fail_expected("a list of at least one place");
+  if (goals->size() == 0)
+    goals->fail("found an empty list; expected a list of at least one place, or no such key");
+  if (!builder.roadmap() && goals->json().front().is_number())
+    goals->fail("found one cell; expected a list of cells [x, y], or the key 'goal' for one cell");
   for (std::size_t k = 0; k < goals->size(); ++k) {
     const JsonValue goal = goals->element(k);
     places.push_back(builder.roadmap() ? read_vertex(*builder.roadmap(), goal)
@@ -126,23 +139,20 @@ Time read_duration(const JsonValue& task) {
   return duration ? static_cast<Time>(duration->integer(0, InstanceBuilder::kMaxDuration)) : 0;
 }
 
-// Returns the ids of the agents of a task; "*" stands for those of all agents.
-std::vector<std::string> read_agents(const InstanceBuilder& builder, const JsonValue& task) {
-  return is_for_all_agents(task) ? builder.agent_ids() : task.member("agents").texts();
-}
-
-std::optional<int> read_need(const JsonValue& task) {
+// `agents`: the number of agents of the task. If it is 0, add_task() refuses the task.
+std::optional<int> read_need(const JsonValue& task, std::size_t agents) {
   const auto need = task.find("need");
-  if (!need) return std::nullopt;
-  return static_cast<int>(need->integer(1, std::numeric_limits<int>::max()));
+  if (!need || agents == 0) return std::nullopt;
+  return static_cast<int>(
+      need->integer(1, static_cast<std::int64_t>(agents), ", the number of agents of the task"));
 }
 
 void add_task(InstanceBuilder& builder, const JsonValue& task) {
   const std::string id = task.member("id").text();
   const JsonValue cell = task.member("cell");
-  const std::vector<std::string> agents = read_agents(builder, task);
+  const std::vector<std::string> agents = agents_of_task(task, [&] { return builder.agent_ids(); });
   const Time duration = read_duration(task);
-  const std::optional<int> need = read_need(task);
+  const std::optional<int> need = read_need(task, agents.size());
   if (builder.roadmap()) {
     const Place place = read_vertex(*builder.roadmap(), cell);
     at_place_of(task, [&] { builder.add_task(id, place, agents, duration, need); });
@@ -175,6 +185,26 @@ StateMemory add_all(InstanceBuilder& builder, const JsonValue& root, const std::
   }
   memory.require(root, file, rules);
   return memory;
+}
+
+// Returns a hint if "agents" is "*" in a task without "need". This is valid, but most users mean
+// that any agent may visit the task.
+std::vector<std::string> hints_on(const JsonValue& root, const std::string& file) {
+  const std::size_t agents = root.member("agents").size();
+  const JsonValue tasks = root.member("tasks");
+  std::size_t count = 0;
+  std::string first;
+  for (std::size_t i = 0; i < tasks.size() && agents > 1; ++i) {
+    const JsonValue task = tasks.element(i);
+    if (!is_for_all_agents(task) || task.find("need")) continue;
+    if (count++ == 0) first = task.path();
+  }
+  if (count == 0) return {};
+  return {
+      fmt::format("{}: {}: \"agents\": \"*\" without \"need\" means that all {} agents must "
+                  "visit the task{}; if any one of them may do so, add \"need\": 1",
+                  one_line(file), first, agents,
+                  count == 1 ? "" : fmt::format(" (the first of {} such tasks)", count))};
 }
 
 Instance read_robots(InstanceBuilder builder, const JsonValue& root, const std::string& file,
@@ -334,7 +364,7 @@ LoadedInstance parse_instance(std::string_view text, const std::string& name,
   Map map =
       roadmap ? Map(read_roadmap(map_path, rules)) : Map(read_map(map_path, &warnings, rules));
   Instance instance = read_robots(InstanceBuilder(std::move(map)), root, name, rules);
-  return {std::move(instance), std::move(map_path), std::move(warnings)};
+  return {std::move(instance), std::move(map_path), std::move(warnings), hints_on(root, name)};
 }
 
 Instance parse_instance_on(InstanceBuilder builder, std::string_view text,

@@ -19,7 +19,8 @@ namespace grove::detail {
 struct LoadedInstance {
   Instance instance;
   std::filesystem::path map_path;  // file of the map or roadmap; empty: it was in the instance file
-  std::vector<std::string> warnings;  // one line each, for example about unusual map characters
+  std::vector<std::string> warnings;    // one line each, for example about unusual map characters
+  std::vector<std::string> hints = {};  // one line each: valid content that is often a mistake
 };
 
 // Reads a *.cts.json file, and the map or roadmap that it names (by a path relative to the file).

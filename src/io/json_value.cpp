@@ -83,9 +83,10 @@ JsonValue JsonValue::element(std::size_t index) const {
   return {(*json_)[index], *file_, path_to(std::to_string(index))};
 }
 
-std::int64_t JsonValue::integer(std::int64_t min, std::int64_t max) const {
+std::int64_t JsonValue::integer(std::int64_t min, std::int64_t max,
+                                std::string_view meaning_of_max) const {
   const auto value = integer_within(*json_, min, max);
-  if (!value) fail_expected(fmt::format("an integer from {} to {}", min, max));
+  if (!value) fail_expected(fmt::format("an integer from {} to {}{}", min, max, meaning_of_max));
   return *value;
 }
 

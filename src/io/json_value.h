@@ -36,7 +36,10 @@ class JsonValue {
   std::size_t size() const;
   JsonValue element(std::size_t index) const;
 
-  std::int64_t integer(std::int64_t min, std::int64_t max) const;
+  // `meaning_of_max`: appended to "expected an integer from 1 to 3", such as ", the number of
+  // cells".
+  std::int64_t integer(std::int64_t min, std::int64_t max,
+                       std::string_view meaning_of_max = "") const;
   double number() const;
   bool boolean() const;
   std::string text() const;

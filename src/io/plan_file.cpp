@@ -90,7 +90,8 @@ IndexById index_by_id(const Items& items) {
 std::int32_t find_id(const IndexById& index, const JsonValue& id, std::string_view kind) {
   const auto it = index.find(id.text());
   if (it == index.end())
-    id.fail(fmt::format("there is no {} '{}' in the instance", kind, id.text()));
+    id.fail(fmt::format("there is no {} '{}' in the instance; expected the id of one of its {}s",
+                        kind, id.text(), kind));
   return it->second;
 }
 
@@ -127,7 +128,8 @@ class PlanReader {
     for (std::size_t i = 0; i < agents.size(); ++i) {
       const JsonValue id = agents.element(i).member("id");
       const AgentIndex index = find_id(agents_, id, "agent");
-      if (seen[index]) id.fail(fmt::format("agent '{}' appears twice", id.text()));
+      if (seen[index])
+        id.fail(fmt::format("agent '{}' appears twice; expected each agent once", id.text()));
       seen[index] = true;
       order.push_back(index);
       plan.agents[index] = read_agent(index, agents.element(i));

@@ -73,10 +73,16 @@ TEST_F(ChoicesFile, GoalsOnARoadmap) {
 }
 
 TEST_F(ChoicesFile, RefusesBadGoals) {
-  EXPECT_EQ(refused_agent(R"("goals": [])"),
-            "i.json: /agents/0/goals: found an array; expected a list of at least one place");
+  EXPECT_EQ(
+      refused_agent(R"("goals": [])"),
+      "i.json: /agents/0/goals: found an empty list; expected a list of at least one place, or "
+      "no such key");
   EXPECT_EQ(refused_agent(R"("goals": [3, 0])"),
-            "i.json: /agents/0/goals/0: found 3; expected a cell [x, y]");
+            "i.json: /agents/0/goals: found one cell; expected a list of cells [x, y], or the key "
+            "'goal' for one cell");
+  EXPECT_EQ(refused_agent(R"("goal": [[3, 0], [2, 0]])"),
+            "i.json: /agents/0/goal: found a list of places; expected one place, or the key "
+            "'goals' for a choice");
   EXPECT_EQ(refused_agent(R"("goals": "*")"),
             "i.json: /agents/0/goals: found \"*\"; expected a list of at least one place");
   EXPECT_EQ(refused_agent(R"("goals": null)"),
@@ -97,19 +103,63 @@ TEST_F(ChoicesFile, RefusesBadGoals) {
 
 TEST_F(ChoicesFile, RefusesBadNeeds) {
   EXPECT_EQ(refused_task(R"("agents": "*", "need": 0)"),
-            "i.json: /tasks/0/need: found 0; expected an integer from 1 to 2147483647");
+            "i.json: /tasks/0/need: found 0; expected an integer from 1 to 3, the number of agents "
+            "of the task");
   EXPECT_EQ(refused_task(R"("agents": "*", "need": 4)"),
-            "i.json: /tasks/0/need: found 4; expected 1 to 3, the number of agents of the task");
+            "i.json: /tasks/0/need: found 4; expected an integer from 1 to 3, the number of agents "
+            "of the task");
   EXPECT_EQ(refused_task(R"("agents": ["a"], "need": 1.5)"),
-            "i.json: /tasks/0/need: found 1.5; expected an integer from 1 to 2147483647");
+            "i.json: /tasks/0/need: found 1.5; expected an integer from 1 to 1, the number of "
+            "agents of the task");
   EXPECT_EQ(refused_task(R"("agents": ["a"], "need": "1")"),
-            "i.json: /tasks/0/need: found \"1\"; expected an integer from 1 to 2147483647");
+            "i.json: /tasks/0/need: found \"1\"; expected an integer from 1 to 1, the number of "
+            "agents of the task");
   EXPECT_EQ(refused_task(R"("agents": "all", "need": 1)"),
             "i.json: /tasks/0/agents: found \"all\"; expected a list of ids, or \"*\" for all "
             "agents");
   EXPECT_EQ(refused_task(R"("agents": ["*"], "need": 1)"),
-            "i.json: /tasks/0/agents/0: there is no agent '*'; expected the id of an agent of this "
-            "instance");
+            "i.json: /tasks/0/agents/0: there is no agent '*'; expected \"agents\": \"*\", without "
+            "brackets, for all agents");
+}
+
+TEST_F(ChoicesFile, AnAgentMayHaveTheIdStar) {
+  const Instance instance = read(R"([{"id": "*", "start": [0, 0]}, {"id": "b", "start": [1, 0]}])",
+                                 R"([{"id": "t", "cell": [1, 0], "agents": ["*"]}])");
+  EXPECT_EQ(instance.task(0).agents, (std::vector<AgentIndex>{0}));
+}
+
+TEST_F(ChoicesFile, RefusesAListOfVerticesAsGoal) {
+  const std::string on_roads = R"("roadmap": "r.roadmap.json")";
+  const auto refused = [&](const std::string& goal) {
+    return refusal(
+        [&] { read(R"([{"id": "a", "start": "A", "goal": )" + goal + "}]", "[]", on_roads); });
+  };
+  EXPECT_EQ(refused(R"(["A", "B"])"),
+            "i.json: /agents/0/goal: found a list of places; expected one place, or the key "
+            "'goals' for a choice");
+  EXPECT_EQ(refused(R"(["B"])"), "accepted");
+}
+
+// Returns the hints on an instance with these tasks.
+std::vector<std::string> hints(const TemporaryDirectory& directory, const std::string& tasks) {
+  const std::string text =
+      R"({"map": "m.map", "agents": )" + kAgents + R"(, "tasks": )" + tasks + "}";
+  return parse_instance(text, "i.json", directory.path()).hints;
+}
+
+TEST_F(ChoicesFile, HintsAtTasksForAllAgentsWithoutANeed) {
+  const std::string task = R"({"id": "t", "cell": [1, 0], "agents": "*"})";
+  const std::string other = R"({"id": "u", "cell": [1, 0], "agents": "*"})";
+  const std::string start =
+      "i.json: /tasks/0: \"agents\": \"*\" without \"need\" means that all 3 agents must visit the "
+      "task";
+  const std::string end = "; if any one of them may do so, add \"need\": 1";
+  EXPECT_EQ(hints(directory_, "[" + task + "]"), (std::vector<std::string>{start + end}));
+  EXPECT_EQ(hints(directory_, "[" + task + "," + other + "]"),
+            (std::vector<std::string>{start + " (the first of 2 such tasks)" + end}));
+  for (const char* tasks : {"[]", R"([{"id": "t", "cell": [1, 0], "agents": "*", "need": 3}])",
+                            R"([{"id": "t", "cell": [1, 0], "agents": ["a", "b", "c"]}])"})
+    EXPECT_TRUE(hints(directory_, tasks).empty()) << tasks;
 }
 
 }  // namespace choices_file_test

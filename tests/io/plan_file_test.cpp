@@ -158,11 +158,16 @@ TEST_F(PlanFile, RefusesInvalidFilesWithThePlace) {
       "p.json: /agents/1/path/1: cell [1, 2] is outside the map; expected x in 0..2 and y in 0..1");
   EXPECT_EQ(refused_with("[1,1]", "[1,1.5]").substr(0, 40),
             "p.json: /agents/1/path/1/1: found 1.5; e");
-  EXPECT_EQ(refused_with("[\"t\"]", "[\"u\"]"),
-            "p.json: /agents/1/sequence/0: there is no task 'u' in the instance");
-  EXPECT_EQ(refused_with("\"m\"", "\"b\""),
-            "p.json: /agents/1/id: there is no agent 'b' in the instance");
-  EXPECT_EQ(refused_with("\"m\"", "\"a\""), "p.json: /agents/1/id: agent 'a' appears twice");
+  EXPECT_EQ(
+      refused_with("[\"t\"]", "[\"u\"]"),
+      "p.json: /agents/1/sequence/0: there is no task 'u' in the instance; expected the id of "
+      "one of its tasks");
+  EXPECT_EQ(
+      refused_with("\"m\"", "\"b\""),
+      "p.json: /agents/1/id: there is no agent 'b' in the instance; expected the id of one of "
+      "its agents");
+  EXPECT_EQ(refused_with("\"m\"", "\"a\""),
+            "p.json: /agents/1/id: agent 'a' appears twice; expected each agent once");
   EXPECT_EQ(
       refused_with(
           "{\n  \"stopped_by\": \"nothing\",\n  \"wall_s\": 0.25,\n  \"nodes_expanded\": 7}", "7"),

@@ -96,7 +96,8 @@ TEST_F(CheckCommand, RejectsEmptyAndPartialPlans) {
 
 TEST_F(CheckCommand, RefusesAPlanForAnotherInstance) {
   EXPECT_EQ(said(check(kClaims, R"({"id": "z", "sequence": [], "cost": 0, "path": []})")),
-            "grove: error: p.json: /agents/0/id: there is no agent 'z' in the instance\n");
+            "grove: error: p.json: /agents/0/id: there is no agent 'z' in the instance; expected "
+            "the id of one of its agents\n");
 }
 
 // Path lists of other solvers make no claims. The command checks only the paths, and its output
