@@ -142,7 +142,7 @@ class Study {
  public:
   explicit Study(SimArguments& arguments)
       : a_(arguments), options_(options_of_one_search(a_.solve)), loaded_(load(a_.solve)) {
-    require_fit(a_.solve, loaded_.instance, options_);
+    require_fit_of_one_search(a_.solve, loaded_.instance, options_, "grove-sim");
     for (const auto& file : {a_.solve.output, a_.profile}) {
       if (file.empty()) continue;
       require_distinct_files(file, a_.solve.instance.path(), "the instance");

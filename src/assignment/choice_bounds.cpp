@@ -24,79 +24,19 @@
 // least the sum of the `need` least ones.
 #include "assignment/choice_bounds.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
-#include <set>
 #include <utility>
 #include <vector>
 
 #include "assignment/goal_choice.h"
+#include "assignment/infeasible_choices.h"
 #include "assignment/route_costs.h"
 #include "sequencing/sum_of_best_sequences.h"
 
 namespace grove::detail {
 namespace {
-
-bool can_visit(const Instance& instance, const DistanceFields& distances, AgentIndex index,
-               TaskIndex task) {
-  const Agent& agent = instance.agent(index);
-  if (distances.to_task(task)[agent.start] >= kNever) return false;
-  if (!agent.has_destination()) return true;
-  return min_distance_from(instance.world(), instance.task(task).cell, agent.kind,
-                           distances.to_rest(index)) < kNever;
-}
-
-// Matches agents to goals by augmenting paths.
-class GoalMatching {
- public:
-  explicit GoalMatching(const Instance& instance)
-      : instance_(instance), places_(all_destinations(instance)), owner_(places_.size(), kFree) {}
-
-  // Returns agents whose goals are fewer than they are; empty if there are none.
-  std::vector<AgentIndex> too_many_agents() {
-    for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
-      if (!instance_.agent(agent).has_destination()) continue;
-      seen_.assign(places_.size(), false);
-      if (match(agent)) continue;
-      std::vector<AgentIndex> agents{agent};
-      for (std::size_t i = 0; i < places_.size(); ++i)
-        if (seen_[i]) agents.push_back(owner_[i]);
-      std::ranges::sort(agents);
-      return agents;
-    }
-    return {};
-  }
-
- private:
-  static constexpr AgentIndex kFree = -1;
-
-  bool match(AgentIndex agent) {
-    for (const Place place : instance_.agent(agent).destinations()) {
-      const auto i =
-          static_cast<std::size_t>(std::ranges::lower_bound(places_, place) - places_.begin());
-      if (seen_[i]) continue;
-      seen_[i] = true;
-      if (owner_[i] != kFree && !match(owner_[i])) continue;
-      owner_[i] = agent;
-      return true;
-    }
-    return false;
-  }
-
-  const Instance& instance_;
-  std::vector<Place> places_;
-  std::vector<AgentIndex> owner_;  // by index in places_
-  std::vector<bool> seen_;
-};
-
-std::string names(const Instance& instance, const std::vector<AgentIndex>& agents) {
-  std::vector<std::string> ids;
-  for (const AgentIndex agent : agents) ids.push_back("'" + instance.agent(agent).id + "'");
-  return fmt::format("{}", fmt::join(ids, ", "));
-}
 
 class Bound {
  public:
@@ -207,28 +147,6 @@ class Bound {
 };
 
 }  // namespace
-
-std::optional<std::string> infeasible_choices(const Instance& instance,
-                                              const DistanceFields& distances) {
-  for (TaskIndex i = 0; i < instance.task_count(); ++i) {
-    const Task& task = instance.task(i);
-    if (task.needs_all()) continue;
-    const auto able = std::ranges::count_if(
-        task.agents, [&](AgentIndex agent) { return can_visit(instance, distances, agent, i); });
-    if (able < task.need)
-      return fmt::format(
-          "task '{}' needs {} of its agents, but only {} can reach it and then a place "
-          "to rest",
-          task.id, task.need, able);
-  }
-  const std::vector<AgentIndex> agents = GoalMatching(instance).too_many_agents();
-  if (agents.empty()) return std::nullopt;
-  std::set<Place> places;
-  for (const AgentIndex agent : agents)
-    for (const Place place : instance.agent(agent).destinations()) places.insert(place);
-  return fmt::format("agents {} have only {} goal{}", names(instance, agents), places.size(),
-                     places.size() == 1 ? "" : "s");
-}
 
 Cost lower_bound_of_choices(const Instance& instance, const DistanceFields& distances,
                             const Limits& limits) {

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lower bounds and proofs of infeasibility for instances in which agents choose tasks and goals.
+// Lower bounds for instances in which agents choose tasks and goals.
 #pragma once
-
-#include <optional>
-#include <string>
 
 #include "model/distance_field.h"
 #include "model/instance.h"
@@ -11,12 +8,6 @@
 #include "model/omega.h"
 
 namespace grove::detail {
-
-// The reason why no plan exists, as a sentence, if too few agents of a task can reach it, or if
-// agents have fewer goals than they are (Hall 1935). Returns nullopt if neither is the case.
-// `distances` must be complete.
-std::optional<std::string> infeasible_choices(const Instance& instance,
-                                              const DistanceFields& distances);
 
 // Returns a proven lower bound on the cost of every plan, without conflicts between agents. The
 // proof is at the head of choice_bounds.cpp. `distances` must be complete. If a limit is reached,

@@ -3,6 +3,7 @@
 
 #ifdef GROVE_WITH_CADICAL
 #include <cstddef>
+#include <functional>
 #include <utility>
 
 #include "assignment/priced_instance.h"
@@ -21,7 +22,7 @@ constexpr std::size_t kMaxBytes = std::size_t{4} << 30;
 class NoPlan : public AllAssignmentsSearch {
  public:
   explicit NoPlan(Cost cutoff) : cutoff_(cutoff) {}
-  bool run(Cost, std::int64_t) override { return false; }
+  bool run(Cost, std::int64_t, const std::function<void()>&) override { return false; }
   Cost lower_bound() const override { return cutoff_; }
   const std::optional<Plan>& plan() const override { return no_plan_; }
   std::optional<Assignment> take_assignment() override { return std::nullopt; }
@@ -50,11 +51,13 @@ class AllAssignmentsCores : public AllAssignmentsSearch {
                                            PricedChoices{&priced_.prices, make_plan});
   }
 
-  bool run(Cost cutoff, std::int64_t effort) override {
+  bool run(Cost cutoff, std::int64_t effort, const std::function<void()>& after_step) override {
     if (!search_) return false;
     const std::int64_t end = search_->work() + effort;
-    while (search_->work() < end && !limits_.stop_requested())
+    while (search_->work() < end && !limits_.stop_requested()) {
       if (search_->step(cutoff) != CoreSearch::Outcome::kWorking) return false;
+      if (after_step) after_step();
+    }
     return true;
   }
   Cost lower_bound() const override {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -26,8 +27,10 @@ class AllAssignmentsSearch {
   virtual ~AllAssignmentsSearch() = default;
 
   // Searches with an effort of about `effort` (model/effort.h). `cutoff`: as in make(), and not
-  // greater. Returns false if the search is over.
-  virtual bool run(Cost cutoff, std::int64_t effort) = 0;
+  // greater. Calls `after_step` about every millisecond, if it is not empty. Returns false if the
+  // search is over.
+  virtual bool run(Cost cutoff, std::int64_t effort,
+                   const std::function<void()>& after_step = {}) = 0;
   // Proven: every plan that costs less than the cutoff of the last run() costs at least this.
   virtual Cost lower_bound() const = 0;
   // An optimal plan, if the search has found one. It is checked.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <new>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "assignment/assignment.h"
 #include "assignment/assignment_search.h"
 #include "assignment/choice_bounds.h"
+#include "assignment/infeasible_choices.h"
 #include "assignment/priced_instance.h"
 #include "assignment/route_bound.h"
 #include "engine/adaptations.h"
@@ -158,16 +160,23 @@ class ChoicesRun {
   // step repeats.
   void search_all(RouteBound& route_bound) {
     if (!all_) {
+      announce_all();
       cutoff_ = cutoff_margin_ < cost() - bound_ ? bound_ + cutoff_margin_ : cost();
       all_ = AllAssignmentsSearch::make(instance_, route_bound, cutoff_, options_, limits_);
     }
     cutoff_ = std::min(cutoff_, cost());
-    const bool is_open = all_ && all_->run(cutoff_, kAllEffort);
+    const bool is_open = all_ && all_->run(cutoff_, kAllEffort, [this] { use_result_of_all(); });
     if (all_) use_result_of_all();
     if (is_open || limits_.stop_requested()) return;
     if (all_) end_all();
     if (bound_ < cutoff_)
       cutoff_margin_ = std::min({cutoff_margin_, cutoff_ - bound_, bound_ + kMarginOffset}) / 2;
+  }
+
+  void announce_all() {
+    if (!std::exchange(has_announced_all_, true))
+      merged_.note(
+          "Searches all assignments at once by unsatisfiable cores, in turn with single ones.");
   }
 
   void use_result_of_all() {
@@ -176,16 +185,31 @@ class ChoicesRun {
     if (const std::optional<Plan>& plan = all_->plan(); plan && plan->cost < cost())
       best_.plan = plan;
     else if (proven <= bound_)
-      return;
+      return report(RunEvent::kProgress);
     const bool is_plan = all_->plan() && best_.plan->cost == all_->plan()->cost;
     bound_ = std::max(bound_, std::min(proven, cost()));
     best_.lower_bound = bound_;
     best_.status = status_of(incumbent(), bound_, options_.omega);
-    const Progress progress{.lower_bound = bound_, .incumbent = incumbent()};
     merged_.begin_search();
     merged_.outside_bound(ComponentId::kCores);
-    if (is_plan) merged_.incumbent(*best_.plan, PlanSource::kCores, progress);
-    merged_.event(is_plan ? RunEvent::kIncumbent : RunEvent::kBound, progress);
+    if (is_plan) merged_.incumbent(*best_.plan, PlanSource::kCores, progress());
+    report(is_plan ? RunEvent::kIncumbent : RunEvent::kBound);
+  }
+
+  Progress progress() const { return {.lower_bound = bound_, .incumbent = incumbent()}; }
+
+  void report(RunEvent event) {
+    std::map<std::string, std::int64_t> counts;
+    add(outside_counters(), counts);
+    merged_.event_outside(event, progress(), std::move(counts));
+  }
+
+  // The counters of the run without the searches of single assignments.
+  Counters outside_counters() const {
+    Counters counters = ended_;
+    if (all_) all_->add_counts(counters);
+    counters[Counter::kAssignments] = searched_;
+    return counters;
   }
 
   void prove_infeasible() {
@@ -198,14 +222,12 @@ class ChoicesRun {
   }
 
   void end_all() {
-    Counters counters;
-    all_->add_counts(counters);
-    add(counters, best_.stats.counts);
+    all_->add_counts(ended_);
     all_.reset();
   }
 
   Solution finish() {
-    if (all_) end_all();
+    add(outside_counters(), best_.stats.counts);
     auto& texts = best_.stats.texts;
     texts.erase("stopped_by");
     texts.erase("remark");
@@ -224,6 +246,8 @@ class ChoicesRun {
   Cost bound_ = 0;  // for all assignments
   Solution best_;
   std::unique_ptr<AllAssignmentsSearch> all_;
+  bool has_announced_all_ = false;
+  Counters ended_;                      // of earlier searches over all assignments
   Cost cutoff_ = kInfiniteCost;         // of all_
   Cost cutoff_margin_ = kInfiniteCost;  // 0: all assignments cannot be searched
   int failures_ = 0;                    // assignments in succession without a cheaper plan
@@ -272,10 +296,10 @@ Solution solve_with_choices(const Instance& instance, const SolveOptions& option
 
 void require_choices_fit(const Instance& instance, const SolveOptions& options) {
   if (options.policy == Policy::kFixed)
-    require_no_choices(instance, "policy fixed does not support");
-  if (options.start) require_no_choices(instance, "a start plan does not support");
+    require_no_choices(instance, "policy fixed does not support", "policy free");
+  if (options.start) require_no_choices(instance, "a start plan does not support", "no start plan");
   if (!options.checkpoints.directory.empty() || options.resume)
-    require_no_choices(instance, "checkpoints do not support");
+    require_no_choices(instance, "checkpoints do not support", "no checkpoints");
   if (options.proof) require_no_choices(instance, "proofs do not support");
 }
 

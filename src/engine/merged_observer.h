@@ -7,8 +7,10 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "engine/run_observer.h"
+#include "model/limits.h"
 
 namespace grove::detail {
 
@@ -40,7 +42,19 @@ class MergedObserver {
   void statistics(RunStatistics statistics) {
     for (const auto& [name, count] : done_) statistics.whole.counts[name] += count;
     if (ends_) done_ = statistics.whole.counts;
+    for (const auto& [name, count] : outside_) statistics.whole.counts[name] += count;
     next_.on_statistics(statistics);
+  }
+  // Reports an event between two searches. `counts`: of the run so far, without these searches.
+  void event_outside(RunEvent what, const Progress& progress,
+                     std::map<std::string, std::int64_t> counts) {
+    outside_ = std::move(counts);
+    begin_search();
+    event(what, progress);
+    if (!next_.wants_statistics()) return;
+    RunStatistics whole;
+    whole.whole.memory.process = static_cast<std::int64_t>(resident_bytes());
+    statistics(std::move(whole));
   }
   void root(const NodePtr& root) { next_.on_root(root); }
   void expanded(const NodePtr& node, const Expansion& expansion, int worker) {
@@ -65,7 +79,8 @@ class MergedObserver {
   RunObserver& next_;
   Progress before_;  // at the start of the current search
   Progress last_;
-  std::map<std::string, std::int64_t> done_;  // counts of the earlier searches
+  std::map<std::string, std::int64_t> done_;     // counts of the earlier searches
+  std::map<std::string, std::int64_t> outside_;  // see event_outside()
   bool is_better_ = false;
   bool searched_ = false;
   bool ends_ = false;  // a search is ending

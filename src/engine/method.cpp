@@ -102,7 +102,8 @@ void require_published_problem(Method method, const Instance& instance) {
 
 void require_fit(Method method, const Instance& instance, const SolveOptions& options) {
   if (method != Method::kAuto)
-    require_no_choices(instance, fmt::format("method {} does not support", name_of(method)));
+    require_no_choices(instance, fmt::format("method {} does not support", name_of(method)),
+                       "method auto");
   require_choices_fit(instance, options);
   const auto ends_at_a_goal = [](const Agent& agent) { return agent.goal.has_value(); };
   if (is_adaptation(method) && std::ranges::all_of(instance.agents(), ends_at_a_goal))

@@ -41,7 +41,8 @@ bool is_adaptation(Method method);
 SolveOptions options_of(Method method, SolveOptions options);
 
 // Throws std::invalid_argument with the reason if the method does not suit the instance, or if a
-// start plan is given to a method that accepts none.
+// start plan is given to a method that accepts none. It is an InstanceError if the reason is a
+// choice in the instance.
 void require_fit(Method method, const Instance& instance, const SolveOptions& options);
 
 // Solves `instance` by the method, with the contract of solve(). `options` must be a result of

@@ -70,6 +70,13 @@ std::string default_task_id(TaskIndex task) {
   return fmt::format("t{}", task);
 }
 
+NotRepresentable not_representable(const Choice& choice, std::string_view format,
+                                   std::string_view remedy) {
+  return {choice.field,
+          refusal_text(choice, fmt::format("cannot be represented in {}", format), remedy),
+          Loss::kNothing};
+}
+
 void require_free_grid(const Instance& instance, std::string_view format) {
   if (!instance.is_on_grid())
     throw NotRepresentable(
@@ -95,13 +102,7 @@ void require_free_grid(const Instance& instance, std::string_view format) {
 void require_fixed_tasks(const Instance& instance, std::string_view format) {
   for (TaskIndex i = 0; i < instance.task_count(); ++i) {
     const Task& task = instance.task(i);
-    if (!task.needs_all())
-      throw NotRepresentable(
-          task_field(i),
-          fmt::format("task '{}' needs {} of its {} agents, which cannot be represented in {}; "
-                      "expected tasks that all their agents must visit",
-                      task.id, task.need, task.agents.size(), format),
-          Loss::kNothing);
+    if (!task.needs_all()) throw not_representable(choice_of_agents(instance, i), format);
   }
 }
 
@@ -132,11 +133,13 @@ void require_distinct_cells(const Instance& instance, std::string_view format) {
 void require_goals(const Instance& instance, std::string_view format) {
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     const Agent& agent = instance.agent(i);
+    if (!agent.goals.empty()) throw not_representable(choice_of_goals(instance, i), format);
     if (!agent.goal)
       throw NotRepresentable(
           agent_field(i),
-          fmt::format("agent '{}' {}; expected one for every agent, because {} requires it",
-                      agent.id, agent.goals.empty() ? "has no goal" : "chooses its goal", format),
+          fmt::format(
+              "agent '{}' has no goal; expected one for every agent, because {} requires it",
+              agent.id, format),
           Loss::kNothing);
   }
 }

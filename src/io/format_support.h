@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "model/choices.h"
 #include "model/instance.h"
 
 namespace grove::detail {
@@ -29,6 +30,10 @@ class NotRepresentable : public InstanceError {
  private:
   Loss loss_;
 };
+
+// The exception for a choice; its text is refusal_text().
+NotRepresentable not_representable(const Choice& choice, std::string_view format,
+                                   std::string_view remedy = "");
 
 // The ids that readers assign if a format has none: a0, a1, ... for agents in order, and t0, t1,
 // ... for tasks in the order of their first appearance in the agents' lists, agent by agent.

@@ -191,7 +191,9 @@ std::string head_text(const Grid& grid, const Agent& agent) {
 }
 
 void require_no_goals(const Instance& instance, std::string_view format) {
-  for (AgentIndex i = 0; i < instance.agent_count(); ++i)
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+    if (!instance.agent(i).goals.empty())
+      throw not_representable(choice_of_goals(instance, i), format);
     if (instance.agent(i).has_destination())
       throw NotRepresentable(
           fmt::format("agents/{}", i),
@@ -200,18 +202,14 @@ void require_no_goals(const Instance& instance, std::string_view format) {
               "agent that may end on any of its tasks (MG-MAPF)",
               instance.agent(i).id, format),
           Loss::kNothing);
+  }
 }
 
 void require_no_choice_of_goals(const Instance& instance) {
   for (AgentIndex i = 0; i < instance.agent_count(); ++i)
     if (!instance.agent(i).goals.empty())
-      throw NotRepresentable(
-          fmt::format("agents/{}", i),
-          fmt::format("agent '{}' chooses its goal, which cannot be represented in "
-                      "libMultiRobotPlanning's YAML for CBS; expected one goal for every agent, or "
-                      "the format potential-goals (CBS-TA)",
-                      instance.agent(i).id),
-          Loss::kNothing);
+      throw not_representable(choice_of_goals(instance, i), "libMultiRobotPlanning's YAML for CBS",
+                              "the format potential-goals (CBS-TA)");
 }
 
 std::string potential_goals_text(const Grid& grid, const Agent& agent) {

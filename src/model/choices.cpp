@@ -8,25 +8,32 @@ namespace grove::detail {
 std::optional<Choice> find_choice(const Instance& instance) {
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     const Agent& agent = instance.agent(i);
-    if (!agent.goals.empty())
-      return Choice{fmt::format("agents/{}/goals", i),
-                    fmt::format("agent '{}' has a choice of goals", agent.id), "'goal'"};
-    if (!agent.options.empty())
-      return Choice{
-          fmt::format("tasks/{}/need", agent.options.front()),
-          fmt::format("task '{}' has a choice of agents", instance.task(agent.options.front()).id),
-          "no 'need' below the number of its agents"};
+    if (!agent.goals.empty()) return choice_of_goals(instance, i);
+    if (!agent.options.empty()) return choice_of_agents(instance, agent.options.front());
   }
   return std::nullopt;
 }
 
-std::string refusal_text(const Choice& choice, std::string_view reason) {
-  return fmt::format("{}, which {}; expected {}", choice.message, reason, choice.expected);
+Choice choice_of_goals(const Instance& instance, AgentIndex agent) {
+  return {fmt::format("agents/{}/goals", agent),
+          fmt::format("agent '{}' has a choice of goals", instance.agent(agent).id), "'goal'"};
 }
 
-void require_no_choices(const Instance& instance, std::string_view reason) {
+Choice choice_of_agents(const Instance& instance, TaskIndex task) {
+  return {fmt::format("tasks/{}/need", task),
+          fmt::format("task '{}' has a choice of agents", instance.task(task).id),
+          "no 'need' below the number of its agents"};
+}
+
+std::string refusal_text(const Choice& choice, std::string_view reason, std::string_view remedy) {
+  return fmt::format("{}, which {}; expected {}{}{}", choice.message, reason, remedy,
+                     remedy.empty() ? "" : ", or ", choice.expected);
+}
+
+void require_no_choices(const Instance& instance, std::string_view reason,
+                        std::string_view remedy) {
   if (const auto choice = find_choice(instance))
-    throw InstanceError(choice->field, refusal_text(*choice, reason));
+    throw InstanceError(choice->field, refusal_text(*choice, reason, remedy));
 }
 
 }  // namespace grove::detail

@@ -21,10 +21,18 @@ struct Choice {
 // Returns the first choice, agent by agent; nullopt if Instance::has_choices() is false.
 std::optional<Choice> find_choice(const Instance& instance);
 
-// Returns "MESSAGE, which REASON; expected EXPECTED".
-std::string refusal_text(const Choice& choice, std::string_view reason);
+// The choice of goals of an agent, and the choice of agents of a task. Preconditions: the agent has
+// `goals`; not all agents of the task must visit it.
+Choice choice_of_goals(const Instance& instance, AgentIndex agent);
+Choice choice_of_agents(const Instance& instance, TaskIndex task);
+
+// Returns "MESSAGE, which REASON; expected REMEDY, or EXPECTED"; without a remedy only "expected
+// EXPECTED". Example of a reason: "policy fixed does not support"; of its remedy: "policy free".
+std::string refusal_text(const Choice& choice, std::string_view reason,
+                         std::string_view remedy = "");
 
 // Throws InstanceError with refusal_text() if the instance has a choice.
-void require_no_choices(const Instance& instance, std::string_view reason);
+void require_no_choices(const Instance& instance, std::string_view reason,
+                        std::string_view remedy = "");
 
 }  // namespace grove::detail

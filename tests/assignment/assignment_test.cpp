@@ -13,6 +13,7 @@
 
 #include "assignment/assignment_search.h"
 #include "assignment/choice_bounds.h"
+#include "assignment/infeasible_choices.h"
 #include "assignment/route_bound.h"
 #include "model/check.h"
 #include "tests/fuzz/random_instance.h"
@@ -164,8 +165,10 @@ TEST(Assignment, TooFewGoals) {
   add("c", 2, {0, 3});
   add("d", 3, {2, 1});
   const Instance instance = std::move(builder).build();
-  EXPECT_EQ(infeasible_choices(instance, DistanceFields(instance)),
-            "agents 'a', 'b', 'd' have only 2 goals");
+  EXPECT_EQ(
+      infeasible_choices(instance, DistanceFields(instance)),
+      "agents 'a', 'b', 'd' have only 2 goals ([1, 0], [2, 0]), but each must end on one of its "
+      "own");
 }
 
 TEST(Assignment, TaskThatTooFewAgentsReach) {
@@ -176,8 +179,63 @@ TEST(Assignment, TaskThatTooFewAgentsReach) {
   builder.add_task("t", Place{0}, std::vector<std::string>{"a", "b"}, 0, 1);
   builder.add_task("u", Place{3}, std::vector<std::string>{"a", "b", "c"}, 0, 2);
   const Instance instance = std::move(builder).build();
+  EXPECT_EQ(
+      infeasible_choices(instance, DistanceFields(instance)),
+      "task 'u' needs 2 of its agents 'a', 'b', 'c', but only 'b' can visit it: walls separate "
+      "[3, 0] from the starts of 'a', 'c'");
+}
+
+TEST(Assignment, TaskBehindWalls) {
+  InstanceBuilder builder(Grid(4, 1, {true, true, false, true}));
+  builder.add_agent("a", Place{0}, std::nullopt);
+  builder.add_agent("b", Place{1}, std::nullopt);
+  builder.add_task("t", Place{3}, std::vector<std::string>{"a", "b"}, 0, 1);
+  const Instance instance = std::move(builder).build();
+  EXPECT_EQ(
+      infeasible_choices(instance, DistanceFields(instance)),
+      "task 't' needs 1 of its agents 'a', 'b', but none of them can visit it: walls separate "
+      "[3, 0] from the starts of all of them");
+}
+
+// One-way roads lead from A and B to T, and from C to A. Agent a starts at A, and agent b at B,
+// where it must end.
+Instance one_way_instance(Place task, const std::vector<std::string>& agents) {
+  InstanceBuilder builder(Roadmap({{"A", {0, 0}}, {"B", {1, 0}}, {"T", {2, 0}}, {"C", {3, 0}}},
+                                  {{0, 2, 1, true}, {1, 2, 1, true}, {3, 0, 1, true}}));
+  builder.add_agent("a", Place{0}, std::nullopt);
+  builder.add_agent("b", Place{1}, Place{1});
+  builder.add_task("t", task, agents);
+  builder.add_task("u", Place{2}, std::vector<std::string>{"a", "b"}, 0, 1);
+  return std::move(builder).build();
+}
+
+TEST(Assignment, TaskOnOneWayRoads) {
+  const Instance unreachable = one_way_instance(Place{3}, {"a"});
+  EXPECT_EQ(
+      infeasible_choices(unreachable, DistanceFields(unreachable)),
+      R"(task 't' needs agent 'a', which cannot visit it: no roads lead from the start of 'a' to )"
+      R"(["C"])");
+  const Instance no_way_back = one_way_instance(Place{2}, {"a", "b"});
+  EXPECT_EQ(infeasible_choices(no_way_back, DistanceFields(no_way_back)),
+            R"(task 't' needs 2 of its agents 'a', 'b', but only 'a' can visit it: no path leads )"
+            R"(from ["T"] to a destination of 'b')");
+}
+
+TEST(Assignment, TooFewReachableGoals) {
+  InstanceBuilder builder(Grid(5, 1, {true, true, true, false, true}));
+  const auto add = [&](const std::string& id, Place start, std::vector<Place> goals) {
+    builder.add_agent({.id = id, .start = {.place = start}, .goal = {}, .goals = std::move(goals)});
+  };
+  add("a", 0, {1, 4});
+  add("b", 2, {4, 1});
+  const Instance instance = std::move(builder).build();
   EXPECT_EQ(infeasible_choices(instance, DistanceFields(instance)),
-            "task 'u' needs 2 of its agents, but only 1 can reach it and then a place to rest");
+            "agents 'a', 'b' can reach only 1 goal ([1, 0]), but each must end on one of its own");
+  InstanceBuilder other(Grid(3, 1, {true, false, true}));
+  other.add_agent({.id = "a", .start = {.place = 0}, .goal = {}, .goals = {2}});
+  const Instance cut_off = std::move(other).build();
+  EXPECT_EQ(infeasible_choices(cut_off, DistanceFields(cut_off)),
+            "agent 'a' can reach none of its goals");
 }
 
 }  // namespace assignment_test

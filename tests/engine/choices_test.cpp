@@ -54,7 +54,8 @@ TEST(SolveWithChoices, TooFewGoalsAreInfeasible) {
   const Instance instance = std::move(builder).build();
   const Solution solution = solve_by(Method::kAuto, false, instance, {}, Limits());
   EXPECT_EQ(solution.status, Status::kInfeasible);
-  EXPECT_EQ(solution.stats.texts.at("reason"), "agents 'a0', 'a2' have only 1 goal");
+  EXPECT_EQ(solution.stats.texts.at("reason"),
+            "agents 'a0', 'a2' have only 1 goal ([1, 0]), but each must end on one of its own");
 }
 
 // The engines themselves refuse choices, so no program can drop them.

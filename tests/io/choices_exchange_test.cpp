@@ -53,8 +53,8 @@ class ChoicesExchange : public ::testing::Test {
 };
 
 std::string need_in(const std::string& format) {
-  return "tasks/0: task 't0' needs 1 of its 2 agents, which cannot be represented in " + format +
-         "; expected tasks that all their agents must visit";
+  return "tasks/0/need: task 't0' has a choice of agents, which cannot be represented in " +
+         format + "; expected no 'need' below the number of its agents";
 }
 
 TEST_F(ChoicesExchange, PlansOfTheTestsAreValid) {
@@ -87,7 +87,10 @@ TEST_F(ChoicesExchange, InstanceFormatsWithoutListsRefuseGoals) {
   for (const WriteInstance& write : writers) {
     const std::string message =
         refused([&](const File& path) { write(path, instance_with_goals()); });
-    EXPECT_TRUE(message.starts_with("agents/0: agent 'a0' ")) << message;
+    EXPECT_TRUE(
+        message.starts_with("agents/0/goals: agent 'a0' has a choice of goals, which cannot "
+                            "be represented in "))
+        << message;
   }
 }
 
@@ -112,9 +115,10 @@ TEST_F(ChoicesExchange, TrackerRowsRefuseChoices) {
                         TrackerUp::kTowardsRowZero);
     });
   };
-  EXPECT_EQ(row(instance_with_goals(), solution_with_goals()),
-            "agents/0: agent 'a0' chooses its goal; expected one for every agent, because a row of "
-            "MAPF Tracker requires it");
+  EXPECT_EQ(
+      row(instance_with_goals(), solution_with_goals()),
+      "agents/0/goals: agent 'a0' has a choice of goals, which cannot be represented in a row "
+      "of MAPF Tracker; expected 'goal'");
   EXPECT_NE(row(instance_with_need(), solution_with_need()), "written");
 }
 

@@ -363,16 +363,16 @@ TEST_F(LibmrpFile, UnrepresentableInstancesAreNotWritten) {
             "tasks/2: MGCBS's YAML has no ids of tasks: read back, task 'shelf' (number 2) would "
             "be 't2' (number 2); expected that");
   EXPECT_EQ(problem(write_libmrp_instance, targets()),
-            "agents/0: agent 'a0' chooses its goal, which cannot be represented in "
-            "libMultiRobotPlanning's YAML for CBS; expected one goal for every agent, or the "
-            "format potential-goals (CBS-TA)");
+            "agents/0/goals: agent 'a0' has a choice of goals, which cannot be represented in "
+            "libMultiRobotPlanning's YAML for CBS; expected the format potential-goals (CBS-TA), "
+            "or 'goal'");
   EXPECT_EQ(problem(write_potential_goals, mg_mapf()),
             "tasks/0: task 't0' cannot be represented in libMultiRobotPlanning's YAML; expected no "
             "tasks");
   EXPECT_EQ(
       problem(write_mgcbs_instance, targets()),
-      "agents/0: agent 'a0' has a goal to end on, which cannot be represented in MGCBS's YAML; "
-      "expected an agent that may end on any of its tasks (MG-MAPF)");
+      "agents/0/goals: agent 'a0' has a choice of goals, which cannot be represented in MGCBS's "
+      "YAML; expected 'goal'");
   InstanceBuilder builder(grid());
   builder.add_agent("a", {0, 0}, std::nullopt);
   builder.add_agent("b", {4, 0}, std::nullopt);
@@ -380,8 +380,8 @@ TEST_F(LibmrpFile, UnrepresentableInstancesAreNotWritten) {
   builder.add_task("t0", {2, 1}, both);
   builder.add_task("t1", {0, 2}, both, 0, 1);
   EXPECT_EQ(problem(write_mgcbs_instance, std::move(builder).build()),
-            "tasks/1: task 't1' needs 1 of its 2 agents, which cannot be represented in MGCBS's "
-            "YAML; expected tasks that all their agents must visit");
+            "tasks/1/need: task 't1' has a choice of agents, which cannot be represented in "
+            "MGCBS's YAML; expected no 'need' below the number of its agents");
   EXPECT_TRUE(directory_.files().empty());
 }
 

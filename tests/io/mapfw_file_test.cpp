@@ -149,11 +149,11 @@ TEST_F(MapfwFile, UnrepresentableInstancesAreNotWritten) {
   InstanceBuilder chooser(testing::grid_of({"..."}));
   chooser.add_agent({.id = "a0", .start = {.place = 0}, .goal = std::nullopt, .goals = {1, 2}});
   EXPECT_EQ(problem(std::move(chooser).build()),
-            "agents/0: agent 'a0' chooses its goal; expected one for every agent, because MAPFW's "
-            "JSON requires it");
+            "agents/0/goals: agent 'a0' has a choice of goals, which cannot be represented in "
+            "MAPFW's JSON; expected 'goal'");
   EXPECT_EQ(problem(with_a_need()),
-            "tasks/0: task 'lift' needs 1 of its 2 agents, which cannot be represented in MAPFW's "
-            "JSON; expected tasks that all their agents must visit");
+            "tasks/0/need: task 'lift' has a choice of agents, which cannot be represented in "
+            "MAPFW's JSON; expected no 'need' below the number of its agents");
   EXPECT_TRUE(directory_.files().empty());
 }
 

@@ -56,6 +56,14 @@ class GroveSim(unittest.TestCase):
         with (self.folder / "profile.csv").open(newline="") as file:
             self.assertEqual({row["ranks"] for row in csv.DictReader(file)}, {"1", "2", "5"})
 
+    def test_choices_are_refused(self):
+        instance = json.loads((DATA / "first.cts.json").read_text(encoding="utf-8"))
+        instance["map"] = str(DATA / "first.map")
+        instance["tasks"][1]["need"] = 1
+        (self.folder / "need.cts.json").write_text(json.dumps(instance), encoding="utf-8")
+        self.refuses("need.cts.json", because=["need.cts.json: /tasks/1/need: task 'press' has a choice of agents, which "
+                                               "grove-sim does not support; expected 'grove solve', or "])
+
     def test_single_rank_has_no_row_unless_requested(self):
         row, = self.rows(EASY, *OPTIMAL, "--ranks", 3)
         self.assertEqual(row["ranks"], "3")

@@ -80,6 +80,7 @@ LoadedInstance load_before_plan(const InstanceArguments& instance) {
 
 void run(const CheckArguments& arguments) {
   const LoadedInstance loaded = load_before_plan(arguments.instance);
+  print_hints(loaded.hints);
   const std::string plan = arguments.plan == "-" ? "/dev/stdin" : arguments.plan;
   const ClaimedPlan claimed = read_plan_of_any_tool(plan, loaded.instance);
   const auto violations =

@@ -62,10 +62,10 @@ void InstanceArguments::add_rules_to(CLI::App& command) {
       "unchanged, and it has no rings (see 'grove execute --help')");
 }
 
-void InstanceArguments::require_no_choices(const Instance& instance,
-                                           std::string_view reason) const {
+void InstanceArguments::require_no_choices(const Instance& instance, std::string_view reason,
+                                           std::string_view remedy) const {
   if (const auto choice = find_choice(instance))
-    throw InputError(name(), "/" + choice->field, refusal_text(*choice, reason));
+    throw InputError(name(), "/" + choice->field, refusal_text(*choice, reason, remedy));
 }
 
 std::string InstanceArguments::name() const {
@@ -137,6 +137,10 @@ std::string read_standard_input() {
 
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) print_to_stderr("grove: warning: " + warning);
+}
+
+void print_hints(const std::vector<std::string>& hints) {
+  for (const std::string& hint : hints) print_to_stderr("grove: hint: " + hint);
 }
 
 }  // namespace grove::detail

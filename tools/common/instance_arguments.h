@@ -26,8 +26,9 @@ class InstanceArguments {
   LoadedInstance load(bool prints_messages = true) const;
 
   // Throws InputError with the place of the first choice in the file if `instance`, which load()
-  // returned, has choices. `reason`: see refusal_text() in model/choices.h.
-  void require_no_choices(const Instance& instance, std::string_view reason) const;
+  // returned, has choices. `reason`, `remedy`: see refusal_text() in model/choices.h.
+  void require_no_choices(const Instance& instance, std::string_view reason,
+                          std::string_view remedy = "") const;
 
   // Returns the name of the instance for messages and results: its path, or "standard input".
   std::string name() const;
@@ -70,5 +71,7 @@ std::string read_standard_input();
 
 // Prints each warning on standard error as a line "grove: warning: ...".
 void print_warnings(const std::vector<std::string>& warnings);
+// Prints each hint on standard error as a line "grove: hint: ...".
+void print_hints(const std::vector<std::string>& hints);
 
 }  // namespace grove::detail

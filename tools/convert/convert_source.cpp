@@ -40,6 +40,7 @@ std::string place_of(const InstanceError& error, const Instance& instance, Insta
     case InstanceFormat::kLibmrp:
     case InstanceFormat::kPotentialGoals:
     case InstanceFormat::kMgcbs:
+      if (field.ends_with("/goals")) return fmt::format("/agents/{}/potentialGoals", index);
       return is_task ? fmt::format("/agents/{}/goals", instance.task(index).agents.front())
                      : "/" + field;
     case InstanceFormat::kMapfw:

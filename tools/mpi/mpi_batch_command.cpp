@@ -20,6 +20,7 @@
 #include "engine/run_observer.h"
 #include "engine/solve.h"
 #include "io/plan_file.h"
+#include "model/choices.h"
 #include "model/fingerprint.h"
 #include "mpi/batch/farm_client.h"
 #include "mpi/batch/farm_master.h"
@@ -206,6 +207,7 @@ class BatchRun {
   std::string unsupported_reason(const Instance& instance) const {
     try {
       require_fit(method_of(a_.solve), instance, options_);
+      require_no_choices(instance, "grove-mpi does not support", "'grove solve'");
       return "";
     } catch (const std::invalid_argument& error) {
       return one_line(error.what());

@@ -58,7 +58,7 @@ class Run {
     if (a_.instance.is_standard_input()) share_standard_input();
     collective(session_, [&] {
       loaded_.emplace(load(a_, is_first()));
-      require_fit(a_, loaded_->instance, options_);
+      require_fit_of_one_search(a_, loaded_->instance, options_, "grove-mpi");
     });
     require_same(session_, "an instance of fingerprint",
                  fmt::format("{:016x}", fingerprint(loaded_->instance)));

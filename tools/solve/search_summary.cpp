@@ -68,7 +68,7 @@ class Counts {
 std::vector<std::string> search_summary(const Stats& stats) {
   const Counts counts(stats);
   if (!stats.counts.contains("nodes_expanded")) return {};
-  return {
+  std::vector<std::string> lines{
       fmt::format("Nodes         expanded {}, generated {}, trees {}", counts["nodes_expanded"],
                   counts["nodes_generated"], counts["roots_generated"]),
       fmt::format("Splits        {}; {} bypasses", counts.splits(), counts["bypasses"]),
@@ -84,6 +84,14 @@ std::vector<std::string> search_summary(const Stats& stats) {
                   counts["primal_low_level_expanded"]),
       fmt::format("Incumbents    {}", counts.plans()),
   };
+  if (counts["assignments"] > 0)
+    lines.push_back(fmt::format("Choices       assignments searched one after the other: {}",
+                                counts["assignments"]));
+  if (counts["assignments"] > 0 || counts["cores"] > 0 || counts["cores_conflicts"] > 0)
+    lines.push_back(
+        fmt::format("Cores         {} cores, {} conflicts of the SAT solver, {} of paths",
+                    counts["cores"], counts["cores_conflicts"], counts["cores_path_conflicts"]));
+  return lines;
 }
 
 }  // namespace grove::detail

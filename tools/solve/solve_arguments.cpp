@@ -315,14 +315,25 @@ void require_fit(const SolveArguments& a, const Instance& instance, const SolveO
   try {
     require_fit(method_of(a), instance, options);
     if (!a.proof.empty()) require_no_choices(instance, "proofs do not support");
+  } catch (const InstanceError& error) {
+    throw InputError(a.instance.name(), "/" + error.field(), error.what());
   } catch (const std::invalid_argument& error) {
     throw InputError(a.instance.name(), "", error.what());
   }
 }
 
+void require_fit_of_one_search(const SolveArguments& a, const Instance& instance,
+                               const SolveOptions& options, std::string_view program) {
+  a.instance.require_no_choices(instance, fmt::format("{} does not support", program),
+                                "'grove solve'");
+  require_fit(a, instance, options);
+}
+
 LoadedInstance load(SolveArguments& a, bool prints_messages) {
   a.instance.limit_memory(a.memory_limit_gb);
-  return a.instance.load(prints_messages);
+  LoadedInstance loaded = a.instance.load(prints_messages);
+  if (prints_messages && !a.quiet) print_hints(loaded.hints);
+  return loaded;
 }
 
 void set_limits(Limits& limits, const SolveArguments& a,

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/method.h"
@@ -73,6 +74,10 @@ SolveOptions options_of_one_search(const SolveArguments& arguments);
 // Throws InputError if the method does not support the instance, or the start plan in `options`.
 void require_fit(const SolveArguments& arguments, const Instance& instance,
                  const SolveOptions& options);
+// As above, for programs that run a single search themselves, and thus support no choices.
+// `program`: its name, such as "grove-mpi".
+void require_fit_of_one_search(const SolveArguments& arguments, const Instance& instance,
+                               const SolveOptions& options, std::string_view program);
 // Loads the instance within the memory limit of the run; see InstanceArguments::load().
 LoadedInstance load(SolveArguments& arguments, bool prints_messages = true);
 // Sets the time limit (from `start`), the memory limit and the interrupt flag of a run.

@@ -14,6 +14,7 @@
 #include "tools/common/gap_text.h"
 #include "tools/common/machine.h"
 #include "tools/common/version.h"
+#include "tools/solve/assignment_summary.h"
 #include "tools/solve/search_summary.h"
 
 namespace grove::detail {
@@ -120,6 +121,7 @@ std::string map_text(const Instance& instance) {
 
 void TextLog::head(const LogHead& h) {
   const Instance& instance = h.loaded.instance;
+  instance_ = &instance;
   sink_.line(fmt::format("{} on {}", version_text(), machine_text()));
   sink_.line(fmt::format("Instance      {}: {}, {}", h.instance, agents_text(instance),
                          tasks_text(instance)));
@@ -229,6 +231,8 @@ void TextLog::end(const LogEnd& end) {
                            evicted_text(solution)));
   if (verbose_)
     for (const std::string& line : search_summary(solution.stats)) sink_.line(line);
+  if (instance_ && solution.plan)
+    for (const std::string& line : assignment_summary(*instance_, *solution.plan)) sink_.line(line);
   if (end.is_unwritten)
     return sink_.line(fmt::format("Plan file     {} was not written", end.plan_file));
   sink_.line(fmt::format(

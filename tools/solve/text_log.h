@@ -28,6 +28,7 @@ class TextLog : public LogFormat {
   const double time_limit_s_;
   const bool verbose_;
   int rows_ = 0;
+  const Instance* instance_ = nullptr;  // since head()
 };
 
 }  // namespace grove::detail

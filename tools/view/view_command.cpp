@@ -184,17 +184,9 @@ void require_valid(const Instance& instance, const NamedPlan& plan, std::string_
                   expected));
 }
 
-// Refuses instances with choices, because passing orders do not have the visits that their plans
-// state.
-void require_no_choices(const std::string& file, const Instance& instance) {
-  if (instance.has_choices())
-    throw InputError(file, "",
-                     "has a choice of tasks or destinations, which --drive does not support yet; "
-                     "expected no 'goals', and no 'need' below the number of a task's agents");
-}
-
 void show_drive(const ViewArguments& arguments, const Instance& instance, const NamedPlan& plan) {
-  require_no_choices(arguments.instance.name(), instance);
+  // Passing orders do not have the visits that plans state.
+  arguments.instance.require_no_choices(instance, "--drive does not support yet", "no --drive");
   require_valid(instance, plan, "the valid plan that is executed");
   const std::string name = name_of(arguments.instance.name());
   const std::string data = page_data(name, instance, std::span(&plan, 1));

@@ -13,7 +13,9 @@
 namespace grove::detail {
 namespace choices_commands_test {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 const std::string kGoals = "agent 'a' has a choice of goals, which ";
 const std::string kGoalsEnd = "; expected 'goal'";
@@ -70,13 +72,21 @@ TEST_F(ChoicesCommands, SolveRefusesWhatDoesNotSupportChoices) {
       {"checkpoints do not support", "--checkpoint", "state"},
       {"policy fixed does not support", "--policy", "fixed"},
       {"method mgcbs does not support", "--method", "mgcbs"},
-      {"method cts-cbs-b does not support", "--method", "cts-cbs-b"}};
+      {"method cts-cbs-b does not support", "--method", "cts-cbs-b"},
+      {"a start plan does not support", "--start"}};
   for (const auto& each : cases) {
-    std::vector<std::string> words{"solve", "goals.cts.json", "--output", "x.plan.json"};
-    words.insert(words.end(), each.begin() + 1, each.end());
-    EXPECT_EQ(refused(words), "goals.cts.json: " + kGoals + each[0] + kGoalsEnd);
-    words[1] = "need.cts.json";
-    EXPECT_EQ(refused(words), "need.cts.json: " + kNeed + each[0] + kNeedEnd);
+    for (const std::string name : {"goals", "need"}) {
+      std::vector<std::string> words{"solve", name + ".cts.json", "--output", "x.plan.json"};
+      words.insert(words.end(), each.begin() + 1, each.end());
+      if (each.back() == "--start") words.push_back(name + ".plan.json");
+      const bool is_need = name == "need";
+      const std::string place =
+          name + ".cts.json: /" + (is_need ? "tasks/0/need: " : "agents/0/goals: ");
+      const std::string text = refused(words);
+      EXPECT_THAT(text, StartsWith(place + (is_need ? kNeed : kGoals) + each[0] + "; expected "));
+      EXPECT_THAT(text,
+                  EndsWith((is_need ? kNeedEnd : kGoalsEnd).substr(sizeof("; expected ") - 1)));
+    }
   }
   EXPECT_EQ(files().size(), before);
 }
@@ -123,6 +133,51 @@ TEST_F(ChoicesCommands, ExecuteRefuses) {
   EXPECT_FALSE(std::filesystem::exists(directory_ / "o.json"));
 }
 
+TEST_F(ChoicesCommands, ViewRefusesADrive) {
+  directory_.write("d.jsonl", "");
+  const std::string reason = "--drive does not support yet; expected no --drive, or ";
+  const auto refused_drive = [&](const std::string& name) {
+    return refused({"view", name + ".cts.json", name + ".plan.json", "--drive", "d.jsonl"});
+  };
+  EXPECT_THAT(refused_drive("goals"),
+              StartsWith("goals.cts.json: /agents/0/goals: " + kGoals + reason));
+  EXPECT_THAT(refused_drive("need"), StartsWith("need.cts.json: /tasks/0/need: " + kNeed + reason));
+}
+
+// All but --quiet: the hint is one line, and the command does its work.
+TEST_F(ChoicesCommands, SolveAndCheckHintAtTasksForAllAgents) {
+  directory_.write("all.cts.json", R"({"map": "m.map", "agents": [
+      {"id": "a", "start": [1, 0], "goal": [1, 0]}, {"id": "b", "start": [3, 0], "goal": [3, 0]}],
+      "tasks": [{"id": "t", "cell": [2, 0], "agents": "*"}]})");
+  const std::string hint =
+      "grove: hint: all.cts.json: /tasks/0: \"agents\": \"*\" without \"need\" means that all 2 "
+      "agents "
+      "must visit the task; if any one of them may do so, add \"need\": 1\n";
+  const auto solve = [&](const char* option) {
+    return run({"solve", "all.cts.json", "--output", "x.plan.json", option}).err;
+  };
+  EXPECT_EQ(solve("--verbose"), hint);
+  EXPECT_EQ(solve("--quiet"), "");
+  EXPECT_EQ(run({"check", "all.cts.json", "x.plan.json"}).err, hint);
+}
+
+TEST_F(ChoicesCommands, SolveSummarisesTheAssignment) {
+  const auto log = [&](const std::string& name) {
+    return run({"solve", name + ".cts.json", "--output", "x.plan.json", "--omega", "0"}).out;
+  };
+  EXPECT_THAT(log("goals"), HasSubstr("\nAssignment    a: no task -> [0, 0]\n"
+                                      "              no task: b\nPlan file     x.plan.json\n"));
+  std::filesystem::remove(directory_.path() / "x.plan.json");
+  EXPECT_THAT(log("need"), HasSubstr("\nAssignment    "));
+}
+
+TEST_F(ChoicesCommands, VerboseNamesTheCountersOfTheSearchForAssignments) {
+  const std::string log =
+      run({"solve", "need.cts.json", "--output", "x.plan.json", "--omega", "0", "--verbose"}).out;
+  EXPECT_THAT(log, HasSubstr("\nChoices       assignments searched one after the other: 1\n"));
+  EXPECT_THAT(log, HasSubstr("\nCores         "));
+}
+
 TEST_F(ChoicesCommands, CertificatesAreRefused) {
   directory_.write("p.proof", "grove-proof 1\n");
   EXPECT_EQ(
@@ -135,15 +190,15 @@ TEST_F(ChoicesCommands, ConvertKeepsOrRefusesChoices) {
   for (const char* to : {"libmrp", "mgcbs", "mapfw", "scen"})
     for (const std::string instance : {"goals", "need"}) {
       const std::string text = refused({"convert", instance + ".cts.json", "out", "--to", to});
-      EXPECT_THAT(text, HasSubstr(instance == "goals" ? ": /agents/0: agent 'a' "
-                                                      : ": /tasks/0: task 't' "))
+      EXPECT_THAT(text,
+                  HasSubstr(instance == "goals" ? ": /agents/0/goals: agent 'a' " : ": /tasks/0"))
           << to;
       EXPECT_FALSE(std::filesystem::exists(directory_ / "out"));
     }
   for (const char* to : {"libmrp", "mapf-visualizer", "eecbs"})
     EXPECT_THAT(
         refused({"convert", "--plan", "need.plan.json", "need.cts.json", "out", "--to", to}),
-        HasSubstr("need.cts.json: /tasks/0: task 't' needs 1 of its 2 agents"))
+        StartsWith("need.cts.json: /tasks/0/need: " + kNeed + "cannot be represented in "))
         << to;
   for (const std::string instance : {"goals.cts.json", "need.cts.json"}) {
     EXPECT_EQ(run({"convert", instance, "copy.cts.json"}).exit_code, 0);

@@ -126,15 +126,17 @@ TEST_F(ConvertCommand, ChoicesAreNeverDropped) {
   directory_.write("targets.cts.json",
                    replaced(kPlain, R"("goal":[4,0])", R"("goals":[[4,0],[0,0]])"));
   EXPECT_EQ(refused({"targets.cts.json", "o.yaml"}),
-            "targets.cts.json: /agents/0: agent 'a0' chooses its goal, which cannot be represented "
-            "in libMultiRobotPlanning's YAML for CBS; expected one goal for every agent, or the "
-            "format potential-goals (CBS-TA)");
-  const std::string chooses = "targets.cts.json: /agents/0: agent 'a0' chooses its goal; ";
+            "targets.cts.json: /agents/0/goals: agent 'a0' has a choice of goals, which cannot be "
+            "represented in libMultiRobotPlanning's YAML for CBS; expected the format "
+            "potential-goals (CBS-TA), or 'goal'");
+  const std::string chooses =
+      "targets.cts.json: /agents/0/goals: agent 'a0' has a choice of goals, which ";
   for (const std::string to : {"o.scen", "o.mapfw.json"})
     EXPECT_EQ(refused({"targets.cts.json", to}).substr(0, chooses.size()), chooses);
   directory_.write("need.cts.json",
                    replaced(kTasks, R"("agents":["a0","a1"])", R"("agents":"*","need":1)"));
-  const std::string needs = "need.cts.json: /tasks/0: task 't0' needs 1 of its 2 agents, which ";
+  const std::string needs =
+      "need.cts.json: /tasks/0/need: task 't0' has a choice of agents, which ";
   EXPECT_EQ(refused({"need.cts.json", "o.mapfw.json"}).substr(0, needs.size()), needs);
   EXPECT_EQ(refused({"need.cts.json", "o.mapfw.json", "--drop", "ids"}).substr(0, needs.size()),
             needs);
@@ -146,6 +148,11 @@ TEST_F(ConvertCommand, ChoicesAreNeverDropped) {
   EXPECT_EQ(content("o.scen"), kScen);
   converted({"need.cts.json", "again.cts.json"});
   EXPECT_EQ(content("again.cts.json"), content("need.cts.json"));
+  directory_.write("choice.yaml",
+                   "agents:\n- {name: a0, start: [0, 0], potentialGoals: [[0, 4], [2, 1]]}\n"
+                   "map: m.map\n");
+  const std::string of_yaml = "choice.yaml: /agents/0/potentialGoals: agent 'a0' has a choice ";
+  EXPECT_EQ(refused({"choice.yaml", "o.scen"}).substr(0, of_yaml.size()), of_yaml);
 }
 
 TEST_F(ConvertCommand, GroveToMapfwAndBack) {
