@@ -42,6 +42,15 @@ export function shortened(text: string, most: number): string {
   return `${[...text.slice(0, 2 * most)].slice(0, most - 1).join("")}…`;
 }
 
+// Cuts a text that is longer than `most` in the middle, because ids often differ at the end.
+export function cutInTheMiddle(text: string, most: number): string {
+  if (text.length <= most) return text;
+  const letters = [...text];
+  const end = Math.min(letters.length, (most - 1) >> 1);
+  const begin = Math.max(0, most - 1 - end);
+  return `${letters.slice(0, begin).join("")}…${letters.slice(letters.length - end).join("")}`;
+}
+
 // Returns the first names with commas between them, and the number of the others.
 export function listed(names: string[]): string {
   const rest = names.length - kMostListed;

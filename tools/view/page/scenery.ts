@@ -7,12 +7,13 @@ import type { Camera } from "./camera";
 import type { Colors } from "./colors";
 import { visitsBy, type PlanFacts } from "./facts";
 import { hasChoice, type Model, type Point, type World } from "./model";
-import { labelsOf } from "./names";
+import { cutInTheMiddle, labelsOf } from "./names";
 import { dashesOf, paintTasks } from "./tasks_canvas";
 import { outlined } from "./text";
 
 const kLeastOwned = 34; // pixels per step, from which on destinations show the ids of their robots
 const kMaxOwnerLabelLength = 9;
+const kMaxTaskLabelLength = 16; // the label is cut further to fit its cell
 
 export interface PathPainter {
   paint(
@@ -42,6 +43,7 @@ export class Scenery {
   private readonly free: number[]; // places that a robot may choose as its destination, but no robot does
   private readonly destinations: number[]; // by robot; -1: none, or not known
   private readonly owners: string[]; // by robot: label of its destination
+  private readonly taskLabels: string[]; // by task
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -53,6 +55,7 @@ export class Scenery {
     const taken = new Set(this.destinations);
     this.free = [...new Set(model.agents.flatMap(({ goals }) => goals))].filter((place) => !taken.has(place));
     this.owners = labelsOf(model.agents.map(({ name }) => name), kMaxOwnerLabelLength);
+    this.taskLabels = model.tasks.map(({ name }) => cutInTheMiddle(name, kMaxTaskLabelLength));
     model.tasks.forEach(({ place }, index) => {
       const others = this.tasksByPlace.get(place);
       if (others) others.push(index);
@@ -160,7 +163,7 @@ export class Scenery {
       const p = camera.toView(world.xs[place], world.ys[place]);
       if (isOutside(p.x, p.y, step, camera)) continue;
       const states = indices.map((index) => ({
-        index,
+        label: this.taskLabels[index],
         begun: this.facts !== null && this.facts.tasks[index].begin <= time,
         visits: this.facts ? visitsBy(this.facts.tasks[index], time) : 0,
         need: tasks[index].need,

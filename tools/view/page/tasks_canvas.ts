@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Paints tasks on a 2D canvas: a stack of diamonds for each place with tasks, with the number of tasks and,
-// where there is space, the number and progress of each task.
+// Paints tasks on a 2D canvas: a stack of diamonds for each place with tasks, with the number of tasks or, where
+// there is space, the id and progress of each task.
 
 import { shapes } from "../palette.json";
 import type { Colors } from "./colors";
-import { outlined } from "./text";
+import { fitted, outlined } from "./text";
 
 const kLeastCounted = 12; // pixels per step, from which on the number of tasks is shown
 const kLeastDashed = 12; // pixels per step, from which on a choice of robots is shown
@@ -12,7 +12,7 @@ const kLeastListed = 30; // pixels per step, from which on each task is listed
 const kMostListed = 3;
 
 export interface TaskState {
-  index: number;
+  label: string; // its id, shortened
   begun: boolean; // a robot has visited it or started to execute it
   visits: number;
   need: number; // number of visits that it needs
@@ -44,6 +44,7 @@ export function paintTasks(
     paintDiamond(c, x + k * apart, y - k * apart, r);
   c.setLineDash([]);
   const color = done ? colors.faint : colors.text;
+  if (step >= kLeastListed) return paintLabels(c, x, y, step, tasks, color, colors);
   if (tasks.length > 1 && step >= kLeastCounted) {
     c.font = `600 ${Math.min(16, 0.36 * step)}px system-ui, sans-serif`;
     c.textAlign = "center";
@@ -51,7 +52,6 @@ export function paintTasks(
     c.fillStyle = done ? colors.faint : colors.onTask;
     c.fillText(String(tasks.length), x, y + 0.5, 1.3 * r);
   }
-  if (step >= kLeastListed) paintTaskList(c, x, y, step, tasks, color, colors);
 }
 
 function paintDiamond(c: CanvasRenderingContext2D, x: number, y: number, r: number): void {
@@ -65,18 +65,31 @@ function paintDiamond(c: CanvasRenderingContext2D, x: number, y: number, r: numb
   c.stroke();
 }
 
-// Writes a line such as "2: 1 of 3" for each task, one above the other.
-function paintTaskList(
+// Returns the lines of the labels of tasks on one place, such as "shelf" or, if several robots must visit the
+// task, "press 1/3".
+export function labelsOfTasks(tasks: TaskState[]): string[] {
+  const texts = tasks.slice(0, kMostListed).map(({ label, visits, need }) =>
+    need > 1 ? `${label} ${visits}/${need}` : label);
+  if (tasks.length > kMostListed) texts.push(`+ ${(tasks.length - kMostListed).toLocaleString("en")}`);
+  return texts;
+}
+
+// Writes the label of a single task at the upper edge of the cell, and the labels of several tasks one below the
+// other in its middle. They are no wider than the cell, because they would be hard to read on walls and on other
+// labels.
+function paintLabels(
   c: CanvasRenderingContext2D, x: number, y: number, step: number, tasks: TaskState[],
   color: string, colors: Colors,
 ): void {
   const size = Math.min(18, Math.max(9, 0.16 * step));
-  const texts = tasks.slice(0, kMostListed).map(({ index, visits, need }) =>
-    `${index + 1}${need > 1 ? `: ${visits} of ${need}` : ""}`);
-  if (tasks.length > kMostListed) texts.push(`+ ${(tasks.length - kMostListed).toLocaleString("en")}`);
   c.font = `${size}px system-ui, sans-serif`;
-  c.textAlign = "left";
-  c.textBaseline = "bottom";
-  const r = 0.6 * shapes.taskRadius * step;
-  texts.forEach((text, i) => outlined(c, text, x + r, y - r - 1.1 * size * i, color, colors.floor));
+  c.textAlign = "center";
+  c.textBaseline = "top";
+  const width = step - 4;
+  const labels = labelsOfTasks(tasks);
+  const top = labels.length === 1 ? y - step / 2 + 2 : y - 0.55 * size * labels.length;
+  labels.forEach((label, i) => {
+    const text = fitted(label, width, (part) => c.measureText(part).width);
+    outlined(c, text, x, top + 1.1 * size * i, color, colors.floor, width);
+  });
 }

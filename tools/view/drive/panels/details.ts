@@ -62,7 +62,7 @@ export class Details {
   private robot(agent: number): HTMLElement[] {
     const { app } = this;
     const visits = app.order.visits(agent).map(({ task, action }) =>
-      this.visit(app.visitTime(agent, action), `${task + 1}: ${app.model.tasks[task].name}`));
+      this.visit(app.visitTime(agent, action), app.model.tasks[task].name));
     return [head(app, app.model.agents[agent].name, this.follow), this.now, this.progress,
       this.late,
       ...(visits.length > 0 ? [el("h4", {}, "Visits"), el("ul", { class: "moments" }, ...visits)] : [])];

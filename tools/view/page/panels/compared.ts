@@ -44,7 +44,7 @@ function visitsInBoth(app: App, agent: number): HTMLElement[] {
     const place = at === i || !isSame ? null
       : el("b", { title: "Its place in the order" }, ` ${ordinal(at + 1)}`);
     return el("tr", {},
-      el("th", { scope: "row", dir: "auto" }, `${index + 1}: ${model.tasks[index].name}`),
+      el("th", { scope: "row", dir: "auto" }, model.tasks[index].name),
       el("td", {}, moment(app, one)), el("td", {}, moment(app, other), place));
   });
   return [el("table", { class: "visits" },

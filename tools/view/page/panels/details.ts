@@ -35,5 +35,5 @@ export class Details {
 }
 
 function taskTitle(app: App, task: number): string {
-  return `${task + 1}: ${app.model.tasks[task].name}`;
+  return app.model.tasks[task].name;
 }

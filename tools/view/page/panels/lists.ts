@@ -148,8 +148,8 @@ export class Lists {
   private tasks(): Row[] {
     const { app } = this;
     return app.model.tasks.map(({ id, name }, index) => ({
-      key: `${index + 1}: ${id.toLowerCase()}`,
-      text: `${index + 1}: ${name}`,
+      key: id.toLowerCase(),
+      text: name,
       note: () => progressText(app, index),
       act: () => app.chooseTask(index),
     }));

@@ -114,7 +114,7 @@ export class RobotDetails {
   // its execution.
   private visit({ task, begin, time }: Visit): Moment {
     const { duration, name } = this.app.model.tasks[task];
-    const what = `${task + 1}: ${name}${hasChoice(this.app.model.tasks[task]) ? " (by choice)" : ""}`;
+    const what = `${name}${hasChoice(this.app.model.tasks[task]) ? " (by choice)" : ""}`;
     if (time === Infinity) return { time, text: what };
     return { time: begin, text: duration > 0 ? `${what}, at work until ${time}` : what };
   }
