@@ -72,7 +72,7 @@ class RouteBound::Relaxation {
 
   void improve(std::int64_t max_effort, const Limits& limits) {
     const std::int64_t end = effort() + max_effort;
-    while (effort() < end && lower_bound() < cost_ && factor_ > kLastFactor) {
+    while (effort() < end && can_improve()) {
       switch (evaluate(end - effort(), limits)) {
         case NgWalks::Outcome::kStopped:
           return;
@@ -91,9 +91,11 @@ class RouteBound::Relaxation {
         failures_ = 0;
         factor_ /= 2;
       }
-      if (!step()) return;
+      if (!step()) factor_ = 0;
     }
   }
+
+  bool can_improve() const { return lower_bound() < cost_ && factor_ > kLastFactor; }
 
   Cost lower_bound() const {
     return best_ ? std::max<Cost>(0, (best_->bound + kUnit - 1) / kUnit) : 0;
@@ -405,6 +407,10 @@ RouteBound::~RouteBound() = default;
 
 void RouteBound::improve(std::int64_t max_effort, const Limits& limits) {
   relaxation_->improve(max_effort, limits);
+}
+
+bool RouteBound::can_improve() const {
+  return relaxation_->can_improve();
 }
 
 std::optional<std::vector<RouteBound::Choices>> RouteBound::choices_below(Cost cutoff,

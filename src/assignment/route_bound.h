@@ -30,6 +30,8 @@ class RouteBound {
   // Improves the multipliers by subgradient steps, until the bound reaches the cost of the routes,
   // or about `max_effort` labels (model/effort.h) are done, or a limit is reached.
   void improve(std::int64_t max_effort, const Limits& limits);
+  // False if a further call of improve() would do nothing.
+  bool can_improve() const;
 
   // The greatest bound so far; 0 before the first step.
   Cost lower_bound() const;
@@ -44,8 +46,7 @@ class RouteBound {
   std::optional<std::vector<Choices>> choices_below(Cost cutoff, const Limits& limits);
 
   // Integral multipliers, in steps, with a good bound, found by local search from the best
-  // multipliers. Returns nullopt if there
-  // is no bound yet, or if a limit is reached.
+  // multipliers. Returns nullopt if there is no bound yet, or if a limit is reached.
   struct Multipliers {
     std::vector<Time> on_visits;                   // by task; 0 for tasks without a choice
     std::vector<std::pair<Place, Time>> on_goals;  // by possible destination

@@ -156,8 +156,8 @@ class ChoicesRun {
 
   // Searches all assignments for a while. It first considers all plans below the incumbent. If
   // these are too many, it considers only plans that cost less than the bound plus
-  // `cutoff_margin_`. If it proves that there are none, the bound rises to this cutoff, and the
-  // step repeats.
+  // `cutoff_margin_`, and better multipliers, with which fewer choices remain. If it proves that
+  // there are none, the bound rises to this cutoff, and the step repeats.
   void search_all(RouteBound& route_bound) {
     if (!all_) {
       announce_all();
@@ -169,8 +169,12 @@ class ChoicesRun {
     if (all_) use_result_of_all();
     if (is_open || limits_.stop_requested()) return;
     if (all_) end_all();
-    if (bound_ < cutoff_)
-      cutoff_margin_ = std::min({cutoff_margin_, cutoff_ - bound_, bound_ + kMarginOffset}) / 2;
+    if (bound_ >= cutoff_) return;
+    cutoff_margin_ = std::min({cutoff_margin_, cutoff_ - bound_, bound_ + kMarginOffset}) / 2;
+    if (!route_bound.can_improve()) return;
+    route_bound.improve(kBoundEffort, part_of(limits_, options_, kBoundShare));
+    raise_bound(route_bound.lower_bound());
+    cutoff_margin_ = std::max<Cost>(cutoff_margin_, 1);
   }
 
   void announce_all() {
@@ -187,13 +191,24 @@ class ChoicesRun {
     else if (proven <= bound_)
       return report(RunEvent::kProgress);
     const bool is_plan = all_->plan() && best_.plan->cost == all_->plan()->cost;
-    bound_ = std::max(bound_, std::min(proven, cost()));
-    best_.lower_bound = bound_;
-    best_.status = status_of(incumbent(), bound_, options_.omega);
-    merged_.begin_search();
+    set_bound(std::max(bound_, proven));
     merged_.outside_bound(ComponentId::kCores);
     if (is_plan) merged_.incumbent(*best_.plan, PlanSource::kCores, progress());
     report(is_plan ? RunEvent::kIncumbent : RunEvent::kBound);
+  }
+
+  void raise_bound(Cost proven) {
+    if (proven <= bound_) return;
+    set_bound(proven);
+    merged_.outside_bound(ComponentId::kLagrangian);
+    report(RunEvent::kBound);
+  }
+
+  void set_bound(Cost proven) {
+    bound_ = std::min(proven, cost());
+    best_.lower_bound = bound_;
+    best_.status = status_of(incumbent(), bound_, options_.omega);
+    merged_.begin_search();
   }
 
   Progress progress() const { return {.lower_bound = bound_, .incumbent = incumbent()}; }
@@ -208,7 +223,7 @@ class ChoicesRun {
   Counters outside_counters() const {
     Counters counters = ended_;
     if (all_) all_->add_counts(counters);
-    counters[Counter::kAssignments] = searched_;
+    counters[Counter::kAssignments] = static_cast<std::int64_t>(searched_.size());
     return counters;
   }
 
