@@ -257,7 +257,7 @@ class Solving(unittest.TestCase):
             self.assertEqual((read.agents, read.tasks), (instance.agents, instance.tasks))
         with self.assertRaisesRegex(grove.InputError, "/agents/0/goals/1: cell .1, 1. is blocked"):
             grove.Instance(grove.World(ROWS), [{"id": "a", "start": (0, 0), "goals": [(0, 0), (1, 1)]}])
-        with self.assertRaisesRegex(grove.InputError, "/tasks/0/need: found 2; expected 1 to 1"):
+        with self.assertRaisesRegex(grove.InputError, "/tasks/0/need: found 2; expected an integer from 1 to 1"):
             grove.Instance(grove.World(ROWS), [{"id": "a", "start": (0, 0)}],
                            [{"id": "t", "cell": (0, 0), "agents": "*", "need": 2}])
 
