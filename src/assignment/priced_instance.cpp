@@ -210,22 +210,6 @@ Pricing price_choices(const Instance& instance, RouteBound& bound, Cost cutoff,
   return Reformulation(instance, *std::move(choices), *std::move(multipliers)).make(priced);
 }
 
-Assignment assignment_of(const Instance& instance, const PricedInstance& priced,
-                         const std::vector<CountedPath>& paths) {
-  Assignment assignment;
-  for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
-    AgentChoice& choice = assignment.emplace_back();
-    for (const auto& [time, stop] : paths[agent].counted) {
-      const TaskIndex task = priced.instance.agent(agent).stops[stop];
-      if (!instance.task(task).needs_all()) choice.visits.push_back(task);
-    }
-    std::ranges::sort(choice.visits);
-    if (!instance.agent(agent).goals.empty())
-      choice.goal = priced.instance.world().place(paths[agent].path.back());
-  }
-  return assignment;
-}
-
 Plan plan_of(const Instance& instance, const PricedInstance& priced,
              const std::vector<CountedPath>& paths) {
   Plan plan;

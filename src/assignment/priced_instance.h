@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "assignment/assignment.h"
 #include "assignment/route_bound.h"
 #include "model/instance.h"
 #include "model/limits.h"
@@ -44,11 +43,6 @@ enum class Pricing : std::uint8_t {
 // has no result; or a limit is reached.
 Pricing price_choices(const Instance& instance, RouteBound& bound, Cost cutoff,
                       const Limits& limits, std::optional<PricedInstance>& priced);
-
-// Returns the choices in these paths of `priced.instance`, which may have conflicts and need not be
-// complete.
-Assignment assignment_of(const Instance& instance, const PricedInstance& priced,
-                         const std::vector<CountedPath>& paths);
 
 // Makes a plan of `instance` of paths in `priced.instance`. Precondition: the paths have no
 // conflicts, count the tasks as often as needed, and end where they may.

@@ -161,8 +161,6 @@ CoreSearch::Outcome CoreSearch::solve() {
 CoreSearch::Outcome CoreSearch::use_model() {
   const std::int64_t conflicts = add_conflicts();
   model_.prefer_paths();  // the next model contains most of these paths
-  if (choices_.prices && model_.has_all_paths() && model_.meets_needs())
-    model_paths_ = model_.counted_paths();
   if (conflicts > 0) return Outcome::kWorking;
   if (!deferred_.empty()) {
     active_.insert(active_.end(), deferred_.begin(), deferred_.end());

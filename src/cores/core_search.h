@@ -7,7 +7,6 @@
 #include <functional>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "cores/core_components.h"
@@ -65,10 +64,6 @@ class CoreSearch {
   Cost lower_bound() const { return lower_bound_; }
   // The optimal plan, once one was found.
   const std::optional<Plan>& plan() const { return plan_; }
-  // With prices: the paths of the latest model of all soft literals that counts each task as often
-  // as needed. The paths may have conflicts. Returns nullopt if there is no new one since the last
-  // call.
-  std::optional<std::vector<CountedPath>> take_model() { return std::exchange(model_paths_, {}); }
 
   // Effort so far (model/effort.h), and numbers of cores, of conflicts of the SAT solver, and of
   // conflicts of paths that became clauses.
@@ -149,7 +144,6 @@ class CoreSearch {
   Cost cutoff_ = kInfiniteCost;
   Cost lower_bound_ = 0;
   std::optional<Plan> plan_;
-  std::optional<std::vector<CountedPath>> model_paths_;  // for take_model()
   std::int64_t cores_ = 0;
 };
 

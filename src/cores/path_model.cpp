@@ -246,13 +246,6 @@ int PathModel::visits_of(const Prices::Need& need, bool without_path) const {
   }));
 }
 
-bool PathModel::meets_needs() const {
-  return std::ranges::all_of(prices_->needs, [&](const Prices::Need& need) {
-    const int visits = visits_of(need, false);
-    return visits == need.count || (visits > need.count && !need.is_exact);
-  });
-}
-
 // Adds clauses for tasks that the paths visit too seldom or too often. Returns their number.
 std::int64_t PathModel::add_needs() {
   std::int64_t added = 0;

@@ -85,8 +85,6 @@ class PathModel {
   void prefer_paths();
   // True if the model that was read last has a path for each agent.
   bool has_all_paths() const;
-  // True if these paths count each task of Prices::needs as often as needed. Requires prices.
-  bool meets_needs() const;
   // The plan of these paths. Requires has_all_paths(), that they have no conflicts, and agents
   // without prices.
   Plan plan() const;

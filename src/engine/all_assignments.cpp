@@ -25,7 +25,6 @@ class NoPlan : public AllAssignmentsSearch {
   bool run(Cost, std::int64_t, const std::function<void()>&) override { return false; }
   Cost lower_bound() const override { return cutoff_; }
   const std::optional<Plan>& plan() const override { return no_plan_; }
-  std::optional<Assignment> take_assignment() override { return std::nullopt; }
   void add_counts(Counters&) const override {}
 
  private:
@@ -37,14 +36,13 @@ class AllAssignmentsCores : public AllAssignmentsSearch {
  public:
   AllAssignmentsCores(const Instance& instance, PricedInstance priced, const SolveOptions& options,
                       const Limits& limits)
-      : instance_(instance),
-        limits_(limits),
+      : limits_(limits),
         priced_(std::move(priced)),
         problem_(priced_.instance, limits, options.threads),
         stops_(priced_.instance, problem_.distances, &priced_.prices) {
     if (!problem_.distances.complete()) return;
-    const auto make_plan = [this](const std::vector<CountedPath>& paths) {
-      return checked_plan(instance_, plan_of(instance_, priced_, paths));
+    const auto make_plan = [this, &instance](const std::vector<CountedPath>& paths) {
+      return checked_plan(instance, plan_of(instance, priced_, paths));
     };
     search_ = std::make_unique<CoreSearch>(problem_, stops_, techniques_of(options),
                                            at_most_a_quarter(kMaxBytes, limits), limits, nullptr, 0,
@@ -64,13 +62,6 @@ class AllAssignmentsCores : public AllAssignmentsSearch {
     return search_ && search_->is_set_up() ? search_->lower_bound() : 0;
   }
   const std::optional<Plan>& plan() const override { return search_ ? search_->plan() : no_plan_; }
-  std::optional<Assignment> take_assignment() override {
-    const auto paths = search_ ? search_->take_model() : std::nullopt;
-    if (!paths) return std::nullopt;
-    Assignment assignment = assignment_of(instance_, priced_, *paths);
-    if (!is_complete(instance_, assignment)) return std::nullopt;
-    return assignment;
-  }
   void add_counts(Counters& counters) const override {
     if (!search_) return;
     counters[Counter::kCores] += search_->cores();
@@ -79,7 +70,6 @@ class AllAssignmentsCores : public AllAssignmentsSearch {
   }
 
  private:
-  const Instance& instance_;
   const Limits& limits_;
   const PricedInstance priced_;
   const Problem problem_;

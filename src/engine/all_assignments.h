@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 
-#include "assignment/assignment.h"
 #include "assignment/route_bound.h"
 #include "engine/solve.h"
 #include "model/counters.h"
@@ -35,9 +34,6 @@ class AllAssignmentsSearch {
   virtual Cost lower_bound() const = 0;
   // An optimal plan, if the search has found one. It is checked.
   virtual const std::optional<Plan>& plan() const = 0;
-  // The assignment of the latest model whose paths satisfy all choices but may have conflicts. Its
-  // plans are likely to be good. Returns nullopt if there is no new one since the last call.
-  virtual std::optional<Assignment> take_assignment() = 0;
   virtual void add_counts(Counters& counters) const = 0;
 };
 

@@ -10,7 +10,6 @@
 #include <memory>
 #include <new>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -125,7 +124,7 @@ class ChoicesRun {
   Cost cost() const { return incumbent().value_or(kInfiniteCost); }
 
   Solution solve_one(const Assignment& assignment, double share) {
-    searched_.insert(assignment);
+    ++searched_;
     const Limits part = part_of(limits_, options_, share);
     return solve_restriction(restriction(instance_, assignment, bound_, cost()), options_, part,
                              merged_);
@@ -140,10 +139,8 @@ class ChoicesRun {
     return std::chrono::duration<double>(limits_.now() - start).count();
   }
 
-  // Searches another assignment: that of a model of all assignments, or a variant of good routes.
   void search_next(AssignmentSearch& assignments) {
-    std::optional<Assignment> next = all_ ? all_->take_assignment() : std::nullopt;
-    if (!next || searched_.contains(*next)) next = assignments.next(cost(), limits_);
+    const auto next = assignments.next(cost(), limits_);
     if (!next) {
       failures_ += kFailuresWithoutAssignment;
       return;
@@ -223,7 +220,7 @@ class ChoicesRun {
   Counters outside_counters() const {
     Counters counters = ended_;
     if (all_) all_->add_counts(counters);
-    counters[Counter::kAssignments] = static_cast<std::int64_t>(searched_.size());
+    counters[Counter::kAssignments] = searched_;
     return counters;
   }
 
@@ -249,7 +246,7 @@ class ChoicesRun {
     if (is_over()) return std::move(best_);
     if (limits_.stop_requested()) texts["stopped_by"] = stop_text(limits_.reason());
     texts["remark"] = fmt::format(
-        "assignments searched: {}{}; the lower bound holds for all assignments", searched_.size(),
+        "assignments searched: {}{}; the lower bound holds for all assignments", searched_,
         limits_.stop_requested() ? "" : ", no further one found that could be cheaper");
     return std::move(best_);
   }
@@ -269,7 +266,7 @@ class ChoicesRun {
   // Seconds; the two take turns. In deterministic runs, calls.
   double spent_on_bounds_ = 0;
   double spent_on_plans_ = 0;
-  std::set<Assignment> searched_;
+  int searched_ = 0;
 };
 
 Solution assign_and_solve(const Instance& instance, const SolveOptions& options,
