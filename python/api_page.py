@@ -30,7 +30,7 @@ SECTIONS = {
     "Worlds and instances": ["World", "Instance", "instance_from_dict", "instance_from_arrays", "read_instance",
                              "read_scenario"],
     "Solving": ["solve", "Solution", "Progress", "Session", "default_threads", "default_memory_limit"],
-    "Plans": ["Plan", "AgentPlan", "check", "read_plan", "visits", "data_frame"],
+    "Plans": ["Plan", "AgentPlan", "check", "read_plan", "fix_choices", "visits", "data_frame"],
     "Displaying": ["view", "View", "picture"],
     "Errors": ["Error", "InputError", "InvalidArgument"],
 }

@@ -124,6 +124,22 @@ GROVE_API Plan plan_from_paths(const Instance& instance,
                                const std::vector<std::vector<Place>>& paths,
                                const std::vector<std::vector<Work>>& work);
 
+/// An instance without choices (Instance::has_choices()), and a plan of it.
+struct FixedChoices {
+  Instance instance;  ///< Each agent must visit all its tasks, and has one destination or none.
+  Plan plan;          ///< A valid plan of `instance`.
+};
+
+/// Fixes the choices of an instance as `plan` makes them, for the parts of Grove that do not
+/// support choices. In the result each agent must visit its required tasks and those of which
+/// `plan` states a visit, and the goal on which it rests is its destination. An agent without a
+/// destination keeps none if it rests on the place of one of these tasks, or has no task; otherwise
+/// its last place becomes its destination. The paths and the cost stay the same, except that an
+/// agent costs less if `plan` states a visit of it, to a task without duration, after it has come
+/// to rest. Throws InvalidArgument if the plan is not valid, and with field()
+/// "/tasks/<i>/agents/<k>" if an agent visits more than 64 tasks.
+GROVE_API FixedChoices fix_choices(const Instance& instance, const Plan& plan);
+
 /// Reads a plan file for `instance`. Does not verify the plan or its claims; for that, use check().
 /// Throws InputError.
 GROVE_API Solution read_plan(const std::filesystem::path& path, const Instance& instance);

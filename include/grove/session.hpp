@@ -24,9 +24,7 @@ using Late [[deprecated("use grove::Delay")]] = Delay;
 
 /// Changes to an instance during execution.
 struct Change {
-  /// New tasks, of existing agents, all of which must visit them (no Task::need below their
-  /// number).
-  std::vector<Task> new_tasks = {};
+  std::vector<Task> new_tasks = {};             ///< New tasks, of existing agents.
   std::vector<std::string> dropped_tasks = {};  ///< Ids of unvisited tasks to remove.
   std::vector<Place> blocked = {};  ///< Cells to block, or vertices with all their roads.
 };
@@ -36,11 +34,10 @@ struct Change {
 /// destroyed. One thread at a time.
 class GROVE_API Session {
  public:
-  /// Creates a session without a plan. Throws InvalidArgument for an instance with choices
-  /// (Instance::has_choices()), which sessions do not support yet.
+  /// Creates a session without a plan.
   explicit Session(Instance instance);
   /// Creates a session with a plan of the instance. Throws InvalidArgument with field() "/plan/..."
-  /// if the plan is not valid, and like the constructor above.
+  /// if the plan is not valid.
   Session(Instance instance, const Plan& plan);
   ~Session();
   Session(Session&&) noexcept;             ///< Move constructor.
@@ -49,7 +46,9 @@ class GROVE_API Session {
   /// Returns the remaining instance, in which the current time is 0. An agent without a destination
   /// that has visited all its tasks is idle. An agent without a destination that has tasks left,
   /// but whose plan ends on a visited task, has that place as its destination until the next
-  /// replan(), or until a change() that affects it.
+  /// replan(), or until a change() that affects it. A task with Task::need below the number of its
+  /// agents loses the agents that have visited it, and needs as many visits less; when it needs
+  /// none, it is removed.
   Instance instance() const;
   /// Returns a valid plan of instance(). Returns std::nullopt if the session has had no plan yet,
   /// or if change() has reset it, until replan() finds a plan.
@@ -85,6 +84,11 @@ class GROVE_API Session {
   /// of its remaining tasks. If that gives no plan, or only one that costs more than a still valid
   /// old plan, a second search gives it the end of its old path as its destination. If the second
   /// search finds a plan, Solution::texts lists the ids of these agents under "ends_of_old_plan".
+  ///
+  /// If the instance has choices (Instance::has_choices()), no agent keeps a task only because the
+  /// old plan gives it this task: the run chooses again, starting from the old plan. Agents
+  /// exchange tasks only if this gives a better plan, and the new plan is never worse than a still
+  /// valid old one. Options::visit_weight defines "better". The lower bound holds for all choices.
   ///
   /// Throws what solve() throws, and InvalidArgument with field() "/commit" if `commit` < 0 or if a
   /// path is blocked before the committed steps end.

@@ -64,6 +64,11 @@ struct Options {
   /// search is needed), by the rules of on_incumbent.
   std::function<void(const Progress&)> on_progress = {};
   double progress_interval = 0.1;  ///< Seconds, >= 0.
+  /// Only for Session::replan(), when agents choose which tasks they visit: weight, from 0 to 100,
+  /// of the sum of the times of these visits against the cost of the plan. 0: tasks are assigned so
+  /// that the agents finish early, also if one agent then makes many visits one after the other;
+  /// 10: so that tasks are visited early. Does not change the cost of a plan and the lower bound.
+  int visit_weight = 0;
 };
 
 /// Finds a plan and proves a lower bound on the cost of every plan. Returns when the tolerance or a

@@ -181,7 +181,8 @@ void add_agent_plan(py::module_& module) {
                     "Ids of the tasks that the robot visits, in order of completion.")
       .def_property_readonly(
           "work", &work_of,
-          "Visits that the plan states, as [(task, begin, end), ...], in steps: executions of tasks "
+          "Visits that the plan states, as [(task, begin, end), ...], in steps: executions of "
+          "tasks "
           "with a duration, and visits to tasks that only some of their agents must visit.")
       .def("__repr__", [](const AgentPlan& agent) {
         return "<grove.AgentPlan: " + agent.id + ", cost " + std::to_string(agent.cost) + ">";
@@ -275,6 +276,18 @@ void add_plan(py::module_& module) {
   module.def("_check_solution", [](const SolutionOfInstance& solution, std::size_t limit) {
     return violation_list(check(solution.instance, solution.whole(), limit));
   });
+  module.def(
+      "fix_choices",
+      [](const PlanOfInstance& plan) {
+        FixedChoices fixed = fix_choices(plan.instance, *plan.plan);
+        return PlanOfInstance{std::move(fixed.instance),
+                              std::make_shared<const Plan>(std::move(fixed.plan))};
+      },
+      py::arg("plan"),
+      "Returns the plan as a plan of an instance without choices: a robot must visit the tasks "
+      "that "
+      "it visits in `plan`, and its destination is the goal on which it ends. Paths and cost stay "
+      "the same. Raises InvalidArgument if the plan is not valid.");
   module.def(
       "read_plan",
       [](const std::filesystem::path& path, const Instance& instance) {

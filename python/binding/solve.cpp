@@ -100,6 +100,7 @@ Call::Call(const Instance& instance, const py::dict& arguments) : stop(arguments
           argument<std::optional<PlanOfInstance>>(arguments, "start", "a Plan, or None"))
     options.start = *start->plan;
   options.progress_interval = argument<double>(arguments, "progress_interval", "seconds");
+  options.visit_weight = argument<int>(arguments, "visit_weight", "a whole number from 0 to 100");
   set_callbacks(options, instance, arguments);
 }
 

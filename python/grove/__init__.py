@@ -41,6 +41,7 @@ from grove._grove import (
     __version__,
     default_memory_limit,
     default_threads,
+    fix_choices,
     read_instance,
     read_plan,
     read_scenario,
@@ -49,7 +50,7 @@ from grove._grove import (
 __all__ = [
     "AgentPlan", "Error", "InputError", "Instance", "InvalidArgument", "Plan", "Progress", "Session",
     "Solution", "View", "World", "__version__", "check", "data_frame", "default_memory_limit",
-    "default_threads", "instance_from_arrays", "instance_from_dict", "picture", "read_instance",
+    "default_threads", "fix_choices", "instance_from_arrays", "instance_from_dict", "picture", "read_instance",
     "read_plan", "read_scenario", "solve", "view", "visits",
 ]
 
@@ -177,7 +178,7 @@ def solve(instance, *, omega=_grove._omega, time_limit=_grove._time_limit, memor
         "omega": omega, "time_limit": time_limit, "memory_limit": memory_limit, "threads": threads,
         "deterministic": deterministic, "seed": seed, "method": method, "start": start,
         "progress": progress, "incumbent": incumbent, "progress_interval": progress_interval,
-        "stop": stop})
+        "stop": stop, "visit_weight": 0})
 
 
 def check(plan, limit=20):
@@ -227,7 +228,7 @@ class Session:
     def change(self, new_tasks=(), dropped_tasks=(), blocked=()):
         """Changes the instance; the next replan() repairs the plan.
 
-        new_tasks: tasks as in an instance; all their agents must visit them.
+        new_tasks: tasks as in an instance.
         dropped_tasks: ids of tasks that no robot has to visit any more.
         blocked: cells to block, or vertices to block with all their roads.
 
@@ -238,10 +239,13 @@ class Session:
 
     def replan(self, *, commit=0, omega=_grove._omega, time_limit=_grove._replan_time_limit,
                memory_limit="auto", threads="auto", deterministic=False, seed=0, method="auto",
-               progress=None, incumbent=None, progress_interval=0.1, stop=None):
+               progress=None, incumbent=None, progress_interval=0.1, stop=None, visit_weight=0):
         """Solves the current instance, starting from the repaired old plan; returns a Solution.
 
         commit: number of steps of the old plan with which the new plan begins; robots execute them during the search.
+
+        visit_weight: for tasks that only some of their robots must visit: weight, from 0 to 100, of the times of these
+        visits against the cost, when the session chooses the robots. 10: tasks are visited early.
 
         The other arguments are those of solve(). After Ctrl-C the session has the best plan so far.
         """
@@ -249,7 +253,7 @@ class Session:
             "omega": omega, "time_limit": time_limit, "memory_limit": memory_limit,
             "threads": threads, "deterministic": deterministic, "seed": seed, "method": method,
             "start": None, "progress": progress, "incumbent": incumbent,
-            "progress_interval": progress_interval, "stop": stop})
+            "progress_interval": progress_interval, "stop": stop, "visit_weight": visit_weight})
 
 
 # --- Displaying plans ---

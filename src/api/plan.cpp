@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "api/access.h"
+#include "assignment/assignment.h"
 #include "io/plan_file.h"
 #include "io/plan_import.h"
 #include "model/assert.h"
@@ -222,6 +223,15 @@ Plan plan_from_paths(const Instance& instance, const std::vector<std::vector<Pla
     std::vector<detail::Path> made = paths_of(inner, paths);
     return public_plan(inner,
                        detail::plan_of_paths(inner, std::move(made), visits_of(inner, work)));
+  });
+}
+
+FixedChoices fix_choices(const Instance& instance, const Plan& plan) {
+  return with_public_exceptions([&] {
+    const detail::Instance& inner = Access::instance(instance);
+    detail::FixedChoices fixed = detail::fix_choices(inner, valid_plan_of(inner, plan, ""));
+    Plan same = public_plan(fixed.instance, fixed.plan);
+    return FixedChoices{Access::to_public(std::move(fixed.instance)), std::move(same)};
   });
 }
 

@@ -22,7 +22,7 @@ detail::AgentIndex agent_of(const detail::Instance& instance, const std::string&
   return static_cast<detail::AgentIndex>(found - agents.begin());
 }
 
-// Returns the ids of the agents of a new task, all of which must visit it.
+// Returns the ids of the agents of a new task.
 std::vector<std::string> agents_of(const detail::Instance& instance, const Task& task,
                                    const std::string& field) {
   std::vector<std::string> ids = task.agents;
@@ -33,11 +33,6 @@ std::vector<std::string> agents_of(const detail::Instance& instance, const Task&
                             "found a list of some agents, and all_agents; "
                             "expected one of them");
   }
-  if (task.need && *task.need != static_cast<int>(ids.size()))
-    throw InvalidArgument(field + "/need",
-                          fmt::format("found {}; expected {}, the number of its agents, because "
-                                      "re-planning does not support choices yet",
-                                      *task.need, ids.size()));
   return ids;
 }
 
@@ -103,7 +98,7 @@ void Session::change(const Change& change) {
     const std::string field = fmt::format("/new_tasks/{}", i);
     const detail::Place place = place_of(map, task.place, field + "/place");
     made.new_tasks.push_back(
-        {task.id, place, agents_of(session.instance(), task, field), task.duration});
+        {task.id, place, agents_of(session.instance(), task, field), task.duration, task.need});
   }
   for (std::size_t i = 0; i < change.blocked.size(); ++i)
     made.blocked.push_back(place_of(map, change.blocked[i], fmt::format("/blocked/{}", i)));

@@ -2,10 +2,12 @@
 #include "assignment/assignment.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <set>
 #include <string>
 #include <utility>
 
+#include "execution/advance.h"
 #include "model/assert.h"
 
 namespace grove::detail {
@@ -17,26 +19,30 @@ bool has_task(const Instance& instance, const Assignment& assignment, AgentIndex
          std::ranges::binary_search(assignment[agent].visits, task);
 }
 
-// The time of the visit to `task` that the agent's sequence counts: the first one at `begin` or
-// later. Precondition: the agent visits the task at this time or later.
-Time time_of_visit(const Instance& instance, const AgentPlan& plan, TaskIndex task, Time begin) {
+// The time of the first visit to `task`. Precondition: the agent visits the task.
+Time time_of_visit(const Instance& instance, const AgentPlan& plan, TaskIndex task) {
   const auto work = std::ranges::find(plan.work, task, &WorkTime::task);
   if (work != plan.work.end()) return work->end;
-  Time time = begin;
-  while (place_at(instance.world(), plan.path, time) != instance.task(task).cell) ++time;
-  return time;
+  const auto visit = std::ranges::find_if(plan.path, [&](State state) {
+    return instance.world().place(state) == instance.task(task).cell;
+  });
+  return static_cast<Time>(visit - plan.path.begin());
 }
 
+// If the agent visits a task with a choice of agents, its sequence is then in the order of first
+// visits. (An agent with stated visits need not end on the last task of its sequence.)
 void state_visits(const Instance& instance, AgentPlan& plan) {
-  Time now = 0;
   std::vector<WorkTime> stated;
-  for (const TaskIndex task : plan.sequence) {
-    now = time_of_visit(instance, plan, task, now);
-    if (instance.task(task).duration == 0 && instance.task(task).has_stated_visits())
-      stated.push_back({task, now, now});
-  }
+  for (const TaskIndex task : plan.sequence)
+    if (instance.task(task).duration == 0 && instance.task(task).has_stated_visits()) {
+      const Time time = time_of_visit(instance, plan, task);
+      stated.push_back({task, time, time});
+    }
+  if (stated.empty()) return;
   plan.work.insert(plan.work.end(), stated.begin(), stated.end());
   std::ranges::stable_sort(plan.work, {}, &WorkTime::begin);
+  std::ranges::stable_sort(plan.sequence, {},
+                           [&](TaskIndex task) { return time_of_visit(instance, plan, task); });
   GROVE_ASSERT(plan.work.empty() || plan.work.back().end <= plan.cost,
                "an agent finishes after its last visit");
 }
@@ -53,6 +59,11 @@ void complete_turn(const Instance& instance, AgentIndex index, AgentPlan& plan) 
     plan.path.push_back(instance.state_of(index, pose));
     ++plan.cost;
   }
+}
+
+// True if the agent may end its plan on its last place in `fixed`.
+bool ends_where_it_may(const Instance& fixed, AgentIndex agent, const AgentPlan& plan) {
+  return fixed.agent(agent).is_idle() || fixed.may_rest(agent, plan.path.back());
 }
 
 }  // namespace
@@ -95,6 +106,60 @@ Instance with_assignment(const Instance& instance, const Assignment& assignment)
     builder.add_task(task.id, task.cell, ids, task.duration);
   }
   return std::move(builder).build();
+}
+
+Assignment assignment_of(const Instance& instance, const Plan& plan) {
+  Assignment assignment(instance.agents().size());
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+    const Agent& agent = instance.agent(i);
+    for (const WorkTime& work : plan.agents[i].work)
+      if (std::ranges::binary_search(agent.options, work.task))
+        assignment[i].visits.push_back(work.task);
+    std::ranges::sort(assignment[i].visits);
+    const Place rest = instance.world().place(plan.agents[i].path.back());
+    if (std::ranges::count(agent.goals, rest) > 0) assignment[i].goal = rest;
+  }
+  return assignment;
+}
+
+FixedChoices fix_choices(const Instance& instance, const Plan& plan) {
+  const Instance fixed = with_assignment(instance, assignment_of(instance, plan));
+  std::vector<bool> ends_elsewhere;
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i)
+    ends_elsewhere.push_back(!ends_where_it_may(fixed, i, plan.agents[i]));
+  Instance result = with_ends_of_plan(fixed, plan, ends_elsewhere);
+  Plan same = without_other_visits(result, plan);
+  return {std::move(result), std::move(same)};
+}
+
+bool forbids_rest_within_turns(const Instance& instance) {
+  return std::ranges::any_of(instance.agents(), [](const Agent& agent) {
+    return agent.motion.turn_steps > 1 && agent.is_idle() && !agent.options.empty();
+  });
+}
+
+Plan without_other_visits(const Instance& fixed, const Plan& plan) {
+  Plan result;
+  for (AgentIndex i = 0; i < fixed.agent_count(); ++i) {
+    AgentPlan& agent = result.agents.emplace_back(plan.agents[i]);
+    const auto is_other = [&](TaskIndex task) {
+      return !std::ranges::binary_search(fixed.agent(i).tasks, task);
+    };
+    std::erase_if(agent.sequence, is_other);
+    std::erase_if(agent.work, [&](const WorkTime& work) {
+      return is_other(work.task) || fixed.task(work.task).duration == 0;
+    });
+    agent.cost = finish_of_steps(agent, kNever);
+    agent.path.resize(static_cast<std::size_t>(agent.cost) + 1, agent.path.back());
+    end_on_the_place_of_rest(fixed, i, agent);
+    result.cost += agent.cost;
+  }
+  return result;
+}
+
+bool serves(const Instance& fixed, AgentIndex agent, const AgentPlan& plan) {
+  return std::ranges::is_permutation(plan.sequence, fixed.agent(agent).tasks) &&
+         ends_where_it_may(fixed, agent, plan);
 }
 
 Plan with_stated_visits(const Instance& instance, Plan plan) {

@@ -34,8 +34,38 @@ bool is_complete(const Instance& instance, const Assignment& assignment);
 Instance with_assignment(const Instance& instance, const Assignment& assignment);
 
 // Converts a plan of with_assignment(instance, ...) to a plan of `instance`: states the visits of
-// tasks that need only some of their agents, and completes a turn within which an agent with such
-// tasks rests. Precondition: the plan is valid.
+// tasks that need only some of their agents, each as early as possible, and completes a turn within
+// which an agent with such tasks rests. Precondition: the plan is valid.
 Plan with_stated_visits(const Instance& instance, Plan plan);
+
+// The choices that a plan of `instance` makes: the optional tasks of which it states visits, and
+// the goals on which the agents rest. If the plan is not valid, the assignment can be incomplete.
+Assignment assignment_of(const Instance& instance, const Plan& plan);
+
+// An instance without choices, and a plan of it.
+struct FixedChoices {
+  Instance instance;
+  Plan plan;
+};
+
+// Fixes the choices as `plan` makes them: with_assignment(), with one addition. If an agent without
+// a destination that must visit no task makes visits and then rests elsewhere, its last place
+// becomes its destination. The paths stay the same. An agent whose plan states a visit after it has
+// come to rest costs less than before; all others cost the same. A lower bound for `instance` also
+// holds for the result, unless forbids_rest_within_turns(). Precondition: `plan` is a valid plan of
+// `instance`. Throws InstanceError like with_assignment().
+FixedChoices fix_choices(const Instance& instance, const Plan& plan);
+
+// True if an agent may not rest within a turn only because it has optional tasks. When the choices
+// are fixed it may, so a plan can then cost less than every plan of `instance`.
+bool forbids_rest_within_turns(const Instance& instance);
+
+// The plan for an instance that fixes choices of its instance: without the visits that `fixed` does
+// not require. The paths stay the same. It is valid for each agent for which serves() is true.
+Plan without_other_visits(const Instance& fixed, const Plan& plan);
+// True if a valid plan of an agent for an instance with choices visits exactly the tasks that
+// `fixed`, an instance that fixes choices, requires of the agent, and ends where it may rest in
+// `fixed`.
+bool serves(const Instance& fixed, AgentIndex agent, const AgentPlan& plan);
 
 }  // namespace grove::detail

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -114,8 +115,12 @@ class RegretInsertion {
 
 class AssignmentSearch::Builder {
  public:
-  Builder(const Instance& instance, const DistanceFields& distances, std::uint64_t seed)
-      : instance_(instance), costs_(instance, distances), routes_(costs_), seed_(seed) {}
+  Builder(const Instance& instance, const DistanceFields& distances, std::uint64_t seed,
+          Cost visit_weight)
+      : instance_(instance),
+        costs_(instance, distances),
+        routes_(costs_, visit_weight),
+        seed_(seed) {}
 
   std::optional<Assignment> first(const Limits& limits) {
     RegretInsertion insertion(instance_, routes_);
@@ -126,6 +131,24 @@ class AssignmentSearch::Builder {
       improve_routes(routes_, costs_, insertions(), seed_++, limits);
       routes_.choose_goals();
     }
+    return remembered(assignment(routes_));
+  }
+
+  std::optional<Assignment> first_from(const Plan& plan, const Limits& limits) {
+    RegretInsertion insertion(instance_, routes_);
+    insert_begun(insertion);
+    insert_visits(plan, insertion);
+    if (!set_goals(plan) && !routes_.choose_goals()) return std::nullopt;
+    if (!insert_required() || !insertion.run(limits)) return std::nullopt;
+    separate_ends();
+    return remembered(assignment(routes_));
+  }
+
+  Assignment improved(std::int64_t insertions, const Limits& limits) {
+    improve_routes(routes_, costs_, insertions, seed_++, limits);
+    Routes other = routes_;
+    if (other.choose_goals() && other.cost() < routes_.cost()) routes_ = std::move(other);
+    separate_ends();
     return remembered(assignment(routes_));
   }
 
@@ -171,6 +194,55 @@ class AssignmentSearch::Builder {
       routes_.insert(i, *task, 0);
     }
   }
+  // Appends the visits of the plan to the routes, except surplus visits.
+  void insert_visits(const Plan& plan, RegretInsertion& insertion) {
+    std::vector<int> missing;
+    for (const Task& task : instance_.tasks()) missing.push_back(task.need);
+    for (AgentIndex i = 0; i < instance_.agent_count(); ++i)
+      if (const auto task = task_at_start(instance_, i)) --missing[*task];
+    for (AgentIndex i = 0; i < instance_.agent_count(); ++i)
+      for (const TaskIndex task : plan.agents[i].sequence) {
+        if (routes_.visits(i, task) || missing[task] <= 0) continue;
+        routes_.insert(i, task, routes_.stops(i).size());
+        --missing[task];
+        if (!instance_.task(task).needs_all()) insertion.count_visit(task);
+      }
+  }
+  // Sets the goals on which the agents end in the plan. Returns false if an agent ends elsewhere,
+  // or where another agent has its destination.
+  bool set_goals(const Plan& plan) {
+    std::set<Place> taken;
+    for (const Agent& agent : instance_.agents())
+      if (agent.goal) taken.insert(*agent.goal);
+    for (AgentIndex i = 0; i < instance_.agent_count(); ++i) {
+      const std::vector<Place>& goals = instance_.agent(i).goals;
+      const Place rest = instance_.world().place(plan.agents[i].path.back());
+      if (goals.empty()) continue;
+      if (std::ranges::count(goals, rest) == 0 || !taken.insert(rest).second) return false;
+    }
+    for (AgentIndex i = 0; i < instance_.agent_count(); ++i)
+      if (!instance_.agent(i).goals.empty())
+        routes_.set_goal(i, instance_.world().place(plan.agents[i].path.back()));
+    return true;
+  }
+  // If the routes of two agents without a destination end on one place, moves the last visit of one
+  // to the end of the other, if it may. With one stop each, such routes would have no plan.
+  void separate_ends() {
+    std::map<Place, AgentIndex> enders;
+    for (AgentIndex i = 0; i < instance_.agent_count(); ++i) {
+      if (instance_.agent(i).has_destination() || routes_.stops(i).empty()) continue;
+      const TaskIndex last = routes_.stops(i).back();
+      const auto [other, is_new] = enders.try_emplace(instance_.task(last).cell, i);
+      const bool is_begun = task_at_start(instance_, i) == last;
+      const Task& task = instance_.task(last);
+      if (is_new || is_begun || task.needs_all() || routes_.visits(other->second, last) ||
+          std::ranges::count(task.agents, other->second) == 0 ||
+          routes_.stops(other->second).size() >= kMaxTasksPerAgent)
+        continue;
+      routes_.remove(i, last);
+      routes_.insert(other->second, last, routes_.stops(other->second).size());
+    }
+  }
   bool insert_required() {
     for (AgentIndex i = 0; i < instance_.agent_count(); ++i)
       for (const TaskIndex task : instance_.agent(i).tasks) {
@@ -207,12 +279,20 @@ class AssignmentSearch::Builder {
 };
 
 AssignmentSearch::AssignmentSearch(const Instance& instance, const DistanceFields& distances,
-                                   std::uint64_t seed)
-    : builder_(std::make_unique<Builder>(instance, distances, seed)) {}
+                                   std::uint64_t seed, Cost visit_weight)
+    : builder_(std::make_unique<Builder>(instance, distances, seed, visit_weight)) {}
 AssignmentSearch::~AssignmentSearch() = default;
 
 std::optional<Assignment> AssignmentSearch::first(const Limits& limits) {
   return builder_->first(limits);
+}
+
+std::optional<Assignment> AssignmentSearch::first_from(const Plan& plan, const Limits& limits) {
+  return builder_->first_from(plan, limits);
+}
+
+Assignment AssignmentSearch::improved(std::int64_t insertions, const Limits& limits) {
+  return builder_->improved(insertions, limits);
 }
 
 std::optional<Assignment> AssignmentSearch::next(Cost cost_limit, const Limits& limits) {

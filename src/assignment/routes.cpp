@@ -15,9 +15,10 @@ std::optional<TaskIndex> task_at_start(const Instance& instance, AgentIndex agen
   return instance.world().work(start).task;
 }
 
-Routes::Routes(const RouteCosts& costs)
+Routes::Routes(const RouteCosts& costs, Cost visit_weight)
     : costs_(&costs),
       instance_(&costs.instance()),
+      visit_weight_(visit_weight),
       stops_(instance_->agents().size()),
       goals_(instance_->agents().size()),
       legs_to_rest_(instance_->agents().size()) {
@@ -39,9 +40,28 @@ bool Routes::visits(AgentIndex agent, TaskIndex task) const {
 
 Cost Routes::cost() const {
   Cost sum = 0;
-  for (AgentIndex agent = 0; agent < instance_->agent_count(); ++agent)
-    for (std::size_t at = 0; at <= stops_[agent].size(); ++at) sum += leg(agent, at);
+  for (AgentIndex agent = 0; agent < instance_->agent_count(); ++agent) sum += cost(agent);
   return sum;
+}
+
+Cost Routes::cost(AgentIndex agent) const {
+  const std::size_t count = stops_[agent].size();
+  Cost arrival = 0;
+  Cost visits = 0;
+  for (std::size_t at = 0; at < count; ++at) {
+    arrival += leg(agent, at);
+    visits += arrival;
+  }
+  return arrival + leg(agent, count) + visit_weight_ * visits;
+}
+
+Time Routes::insertion_cost(AgentIndex agent, std::size_t at, Cost arrival, Time before,
+                            Time after) const {
+  const Time detour = before + after - leg(agent, at);
+  if (visit_weight_ == 0) return detour;
+  const auto later = static_cast<Cost>(stops_[agent].size() - at);  // stops that are then delayed
+  const Cost cost = detour + visit_weight_ * (arrival + before + later * detour);
+  return static_cast<Time>(std::min<Cost>(cost, kNever - 1));
 }
 
 void Routes::insert(AgentIndex agent, TaskIndex task, std::size_t position) {
@@ -52,9 +72,19 @@ Cost Routes::remove(AgentIndex agent, TaskIndex task) {
   std::vector<TaskIndex>& stops = stops_[agent];
   const auto found = std::ranges::find(stops, task);
   const auto at = static_cast<std::size_t>(found - stops.begin());
+  if (visit_weight_ > 0) {
+    const Cost before = cost(agent);
+    stops.erase(found);
+    return before - cost(agent);
+  }
   const Cost before = Cost{leg(agent, at)} + leg(agent, at + 1);
   stops.erase(found);
   return before - leg(agent, at);
+}
+
+void Routes::set_goal(AgentIndex agent, Place goal) {
+  goals_[agent] = goal;
+  legs_to_rest_[agent] = &costs_->legs_to_goal(agent, goal);
 }
 
 // The order of the draws is that of agents and of their goals, so it is repeatable.

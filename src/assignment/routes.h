@@ -24,12 +24,13 @@ struct Insertion {
   std::size_t position = 0;
 };
 
-// The cost of a route is the sum of its legs, without conflicts between agents. At first all routes
-// are empty. Copies are independent. One thread at a time.
+// The cost of a route is the sum of its legs, plus `visit_weight` times the sum of the times at
+// which it reaches its stops, without conflicts between agents. At first all routes are empty.
+// Copies are independent. One thread at a time.
 class Routes {
  public:
-  // `costs` must outlive this object.
-  explicit Routes(const RouteCosts& costs);
+  // `costs` must outlive this object. `visit_weight`: from 0 to 100.
+  explicit Routes(const RouteCosts& costs, Cost visit_weight = 0);
 
   const RouteCosts& costs() const { return *costs_; }
   const std::vector<TaskIndex>& stops(AgentIndex agent) const { return stops_[agent]; }
@@ -56,6 +57,8 @@ class Routes {
   // goals.
   bool choose_goals() { return choose_goals(0, 0); }
   bool choose_goals(Time noise, std::uint64_t seed);
+  // Sets the goal of an agent with a choice.
+  void set_goal(AgentIndex agent, Place goal);
   // The leg to `goal` from the end of the agent's route.
   Time leg_to_goal(AgentIndex agent, Place goal) const;
 
@@ -65,10 +68,16 @@ class Routes {
   Time leg(AgentIndex agent, std::size_t at) const;
   Time leg_from(AgentIndex agent, TaskIndex task, std::size_t at) const;
   Time to_rest(AgentIndex agent, TaskIndex from) const;
+  Cost cost(AgentIndex agent) const;
+  // The cost of an insertion at position `at` that is `before` steps from the stop before it, which
+  // the agent reaches at time `arrival`, and `after` steps from the next one.
+  Time insertion_cost(AgentIndex agent, std::size_t at, Cost arrival, Time before,
+                      Time after) const;
   Time start_to_rest(AgentIndex agent) const;
 
   const RouteCosts* costs_;
   const Instance* instance_;
+  Cost visit_weight_;
   std::vector<std::vector<TaskIndex>> stops_;  // by AgentIndex
   std::vector<std::optional<Place>> goals_;
   std::vector<const std::vector<Time>*>
@@ -82,13 +91,15 @@ Insertion Routes::cheapest(AgentIndex agent, TaskIndex task, Consider consider) 
   Insertion best;
   if (stops.size() >= kMaxTasksPerAgent || visits(agent, task)) return best;
   Time before = kNever;
+  Cost arrival = 0;  // at the stop before
   for (std::size_t at = 0; at <= stops.size(); ++at) {
     before =
         at == 0 ? costs_->from_start(agent, task) : costs_->between(agent, stops[at - 1], task);
+    if (at > 0) arrival += leg(agent, at - 1);
     if (at < first_position(agent, task) || !consider()) continue;
     const Time after = leg_from(agent, task, at);
     if (before >= kNever || after >= kNever) continue;
-    const Time cost = before + after - leg(agent, at);
+    const Time cost = insertion_cost(agent, at, arrival, before, after);
     if (cost < best.cost) best = {cost, at};
   }
   return best;

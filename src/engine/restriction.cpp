@@ -35,8 +35,16 @@ class RestrictionStage : public Stage {
 
 Solution solve_restriction(const Restriction& restriction, const SolveOptions& options,
                            const Limits& limits, MergedObserver& merged) {
+  return solve_restriction(restriction, options.omega, limits, merged, [&](RunObserver& stage) {
+    return solve(restriction.instance, options, limits, &stage);
+  });
+}
+
+Solution solve_restriction(const Restriction& restriction, Omega omega, const Limits& limits,
+                           MergedObserver& merged,
+                           const std::function<Solution(RunObserver&)>& search) {
   RestrictionStage stage(merged, restriction, limits);
-  Solution solution = solve(restriction.instance, options, limits, &stage);
+  Solution solution = search(stage);
   if (solution.plan) {
     solution.plan = restriction.to_whole(*solution.plan);
   } else if (solution.status == Status::kInfeasible) {
@@ -45,12 +53,11 @@ Solution solve_restriction(const Restriction& restriction, const SolveOptions& o
   }
   const Cost own_bound = std::exchange(solution.lower_bound, restriction.bound);
   const auto cost = solution.plan ? std::optional(solution.plan->cost) : std::nullopt;
-  solution.status = status_of(cost, solution.lower_bound, options.omega);
+  solution.status = status_of(cost, solution.lower_bound, omega);
   if (solution.status == Status::kFeasible && !was_stopped(solution))
     solution.stats.texts["remark"] = fmt::format(
         "the cost is within omega of {}, the lower bound for {}, but not of the lower bound for "
-        "all "
-        "plans",
+        "all plans",
         own_bound, restriction.plans);
   return solution;
 }

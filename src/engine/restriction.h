@@ -29,6 +29,10 @@ struct Restriction {
 // then says so. If the restriction has no plan, the status is kUnknown, also with a remark.
 Solution solve_restriction(const Restriction& restriction, const SolveOptions& options,
                            const Limits& limits, MergedObserver& merged);
+// The same with another search of `restriction.instance`, to within `omega` and within `limits`.
+Solution solve_restriction(const Restriction& restriction, Omega omega, const Limits& limits,
+                           MergedObserver& merged,
+                           const std::function<Solution(RunObserver&)>& search);
 
 // Did a limit stop the run with this result?
 bool was_stopped(const Solution& solution);

@@ -20,11 +20,14 @@
 #include <utility>
 #include <vector>
 
+#include "assignment/assignment.h"
+#include "engine/assigned_search.h"
+#include "engine/restriction.h"
 #include "engine/run_observer.h"
 #include "execution/advance.h"
 #include "model/assert.h"
 #include "model/check.h"
-#include "model/choices.h"
+#include "model/distance_field.h"
 #include "planning/problem.h"
 #include "primal/repair.h"
 #include "search/feasibility.h"
@@ -117,9 +120,8 @@ class WholePlans : public ForwardingObserver {
 // Data kept between solves, so that the next solve reuses the distances.
 struct SolvedInstance {
   SolvedInstance(Instance the_instance, const Limits& limits, int threads,
-                 const SolvedInstance* before)
-      : instance(std::move(the_instance)),
-        problem(instance, limits, threads, before ? &before->problem.distances : nullptr) {}
+                 const DistanceFields* known)
+      : instance(std::move(the_instance)), problem(instance, limits, threads, known) {}
 
   const Instance instance;
   const Problem problem;
@@ -198,9 +200,7 @@ class Session::Impl {
         plan_(std::move(plan)),
         old_(plan_),
         affected_(static_cast<std::size_t>(instance_.agent_count())),
-        ends_with_plan_(affected_) {
-    require_no_choices(instance_, "re-planning does not support yet");
-  }
+        ends_with_plan_(affected_) {}
 
   const Instance& instance() const { return instance_; }
   const std::optional<Plan>& plan() const { return plan_; }
@@ -209,10 +209,7 @@ class Session::Impl {
     GROVE_ASSERT(plan_, "advance() needs a plan");
     const bool is_anyone_late =
         std::ranges::any_of(late, [](const Delay& l) { return l.steps != 0; });
-    const Plan executed =
-        is_anyone_late
-            ? delayed_plan(instance_, *plan_, ActionDependencyGraph(instance_, *plan_), steps, late)
-            : *plan_;
+    const Plan executed = is_anyone_late ? executed_plan(steps, late) : *plan_;
     Remainder rest =
         grove::detail::advance(instance_, executed, steps, Rests::kAnywhere, ends_with_plan_);
     require_valid_plan(rest.instance, rest.plan);
@@ -232,7 +229,7 @@ class Session::Impl {
     instance_ = with_ends_of_plan(changed.instance, changed.plan, ends_with_plan_);
     old_ = std::move(changed.plan);
     cut_ = cut_.empty() ? std::move(changed.cut) : either(std::move(cut_), changed.cut);
-    if (any(affected_))
+    if (any(affected_) || !has_all_visits(*old_))
       plan_.reset();
     else
       plan_ = old_;
@@ -245,6 +242,21 @@ class Session::Impl {
   }
 
  private:
+  // The plan that robots execute if those in `late` are late at the end of `steps` steps.
+  Plan executed_plan(Time steps, std::span<const Delay> late) const {
+    const auto delayed = [&](const Instance& instance, const Plan& plan) {
+      return delayed_plan(instance, plan, ActionDependencyGraph(instance, plan), steps, late);
+    };
+    if (!instance_.has_choices()) return delayed(instance_, *plan_);
+    const FixedChoices fixed = fix_choices(instance_, *plan_);
+    return with_stated_visits(instance_, delayed(fixed.instance, fixed.plan));
+  }
+
+  // True if the plan makes all visits to tasks with a choice of agents.
+  bool has_all_visits(const Plan& plan) const {
+    return !instance_.has_choices() || is_complete(instance_, assignment_of(instance_, plan));
+  }
+
   // Solves first without the destinations that agents have only because of the old plan. Solves
   // with these destinations if the first search finds no plan, or one that costs more than the old
   // plan.
@@ -273,14 +285,52 @@ class Session::Impl {
   Solution search(const Instance& instance, const std::vector<bool>& affected,
                   const SolveOptions& options, const Limits& limits, RunObserver& observer,
                   Time commit) {
-    auto now = std::make_unique<SolvedInstance>(instance, limits, options.threads, solved_.get());
-    Solution solution = commit > 0 && old_ && is_searched(now->problem)
-                            ? solve_later(*now, affected, options, limits, observer, commit)
-                            : solve_from(old_ ? &*old_ : nullptr, affected, now->problem, options,
-                                         limits, observer);
+    if (instance.has_choices())
+      return search_with_choices(instance, affected, options, limits, observer, commit);
+    distances_.reset();
+    return search_from(instance, old_ ? &*old_ : nullptr, affected, options, limits, observer,
+                       commit);
+  }
+
+  // `old`: the plan to start from, or nullptr. Precondition: the instance has no choices.
+  Solution search_from(const Instance& instance, const Plan* old, const std::vector<bool>& affected,
+                       const SolveOptions& options, const Limits& limits, RunObserver& observer,
+                       Time commit) {
+    auto now = std::make_unique<SolvedInstance>(instance, limits, options.threads, known());
+    Solution solution = commit > 0 && old && is_searched(now->problem)
+                            ? solve_later(*now, *old, affected, options, limits, observer, commit)
+                            : solve_from(old, affected, now->problem, options, limits, observer);
     require_valid_plan(now->instance, solution);
     solved_ = std::move(now);
     return solution;
+  }
+
+  Solution search_with_choices(const Instance& instance, const std::vector<bool>& affected,
+                               const SolveOptions& options, const Limits& limits,
+                               RunObserver& observer, Time commit) {
+    distances_ = std::make_unique<DistanceFields>(instance, limits, options.threads, known());
+    if (!distances_->complete()) return stopped_solution(options, limits);
+    const Plan old = old_ ? *old_ : standing_plan(instance);
+    const AssignedSearch assigned{
+        .instance = instance,
+        .distances = *distances_,
+        .old = old,
+        .affected = affected,
+        .is_valid = plan_ && !any(affected),
+        .commit = old_ ? commit : 0,
+        .search = [&](const Instance& fixed, const Plan& start, const std::vector<bool>& changed,
+                      const Limits& part, RunObserver& stage) {
+          return search_from(fixed, &start, changed, options, part, stage, old_ ? commit : 0);
+        }};
+    Solution solution = search_assigned(assigned, options, limits, observer);
+    require_valid_plan(instance, solution);
+    return solution;
+  }
+
+  // Distances of the last solve that the next one can use.
+  const DistanceFields* known() const {
+    if (distances_ && distances_->complete()) return distances_.get();
+    return solved_ ? &solved_->problem.distances : nullptr;
   }
 
   std::string names(const std::vector<bool>& agents) const {
@@ -306,20 +356,21 @@ class Session::Impl {
     }
   }
 
-  Solution solve_later(const SolvedInstance& now, const std::vector<bool>& affected,
-                       const SolveOptions& options, const Limits& limits, RunObserver& observer,
-                       Time commit) {
+  Solution solve_later(const SolvedInstance& now, const Plan& old,
+                       const std::vector<bool>& affected, const SolveOptions& options,
+                       const Limits& limits, RunObserver& observer, Time commit) {
     require_open(commit);
     std::optional<Remainder> rest;
     try {
-      rest = grove::detail::advance(now.instance, *old_, commit, Rests::kWhereItMust);
+      rest = grove::detail::advance(now.instance, old, commit, Rests::kWhereItMust);
     } catch (const InstanceError& error) {
       return unknown(options, error.what());
     }
-    const SolvedInstance later(std::move(rest->instance), limits, options.threads, &now);
+    const SolvedInstance later(std::move(rest->instance), limits, options.threads,
+                               &now.problem.distances);
     AgentStopsCache stops(now.instance, now.problem.distances);
     const Cost individual_costs = sum_of_individual_costs(now.problem, stops, limits);
-    WholePlans plans(observer, now.instance, *old_, commit, later.instance, individual_costs);
+    WholePlans plans(observer, now.instance, old, commit, later.instance, individual_costs);
     Solution solution = solve_from(&rest->plan, affected, later.problem, options, limits, plans);
     return plans.whole(std::move(solution));
   }
@@ -331,6 +382,7 @@ class Session::Impl {
   std::vector<bool> cut_;       // by agent: its path enters a closed place; empty: no path does
   std::vector<bool> ends_with_plan_;  // by agent; see execution/advance.h
   std::unique_ptr<SolvedInstance> solved_;
+  std::unique_ptr<DistanceFields> distances_;  // of the last solve of an instance with choices
 };
 
 Session::Session(Instance instance)

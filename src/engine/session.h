@@ -17,9 +17,8 @@ namespace grove::detail {
 // of the plan that is still valid. One thread at a time.
 class Session {
  public:
-  // Throws InstanceError if the instance has choices, which sessions do not support yet.
   explicit Session(Instance instance);
-  // `plan` must be a valid plan of `instance`. Throws InstanceError like the constructor above.
+  // `plan` must be a valid plan of `instance`.
   Session(Instance instance, Plan plan);
   ~Session();
   Session(Session&&) noexcept;
@@ -57,6 +56,11 @@ class Session {
   // plan (execution/advance.h). If that finds no plan, or one that costs more than a still valid
   // old plan, a second search keeps these destinations. If the second search finds a plan,
   // texts["ends_of_old_plan"] lists the ids of these agents.
+  //
+  // If the instance has choices, the agents keep no task of the old plan: the search chooses an
+  // assignment again, starting from that of the old plan (engine/assigned_search.h). The result is
+  // never worse than a still valid old plan. lower_bound then holds for all assignments, and
+  // counts["lower_bound_committed"] is not set.
   //
   // The independent checker has verified every plan, including those passed to `observer`. Throws
   // what solve() throws, InvalidPlan, and NotCommitted.

@@ -88,7 +88,7 @@ bool continues(const Instance& instance, const Action& turn, State from) {
 ActionDependencyGraph::ActionDependencyGraph(const Instance& instance, const Plan& plan) {
   if (static_cast<int>(plan.agents.size()) != instance.agent_count())
     throw std::invalid_argument("a passing order requires a plan of all agents");
-  require_no_choices(instance, "passing orders do not support yet");
+  require_no_choices(instance, "passing orders do not support", kFixedChoices);
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
     add_actions(instance, agent, plan.agents[agent]);
     first_.push_back(static_cast<ActionIndex>(actions_.size()));

@@ -25,18 +25,9 @@ Time finish(const AgentPlan& plan) {
 // The time at which the plan visits a task. Precondition: the plan visits it.
 Time visit_time(const Instance& instance, const AgentPlan& plan, TaskIndex index) {
   const Task& task = instance.task(index);
-  if (task.duration > 0) return std::ranges::find(plan.work, index, &WorkTime::task)->end;
+  if (task.has_stated_visits()) return std::ranges::find(plan.work, index, &WorkTime::task)->end;
   const auto is_there = [&](State s) { return instance.world().place(s) == task.cell; };
   return static_cast<Time>(std::ranges::find_if(plan.path, is_there) - plan.path.begin());
-}
-
-// If the agent rests on the last stop of its sequence, moves the tasks on its last place to the end
-// of the sequence. They may be earlier in the sequence if the path visits that place several times.
-void end_on_the_place_of_rest(const Instance& instance, AgentIndex agent, AgentPlan& plan) {
-  if (!instance.rests_on_last_stop(agent)) return;
-  const Place rest = instance.world().place(plan.path.back());
-  std::stable_partition(plan.sequence.begin(), plan.sequence.end(),
-                        [&](TaskIndex task) { return instance.task(task).cell != rest; });
 }
 
 // Computes the remainder of one agent after `time` steps.
@@ -50,14 +41,25 @@ class AgentLater {
         plan_(plan),
         time_(time),
         rests_(rests),
-        has_goal_(agent_.goal && !ended_with_plan) {
+        has_destination_(agent_.has_destination() && !ended_with_plan) {
     for (const TaskIndex task : agent_.tasks)
       if (!is_visited(task)) left_.push_back(task);
+    for (const TaskIndex task : agent_.options)
+      (is_visited(task) ? made_ : options_).push_back(task);
   }
 
+  // The tasks that the agent must still visit, and those that it may still visit.
   const std::vector<TaskIndex>& left() const { return left_; }
+  const std::vector<TaskIndex>& options() const { return options_; }
+  // The optional tasks that it has visited.
+  const std::vector<TaskIndex>& made() const { return made_; }
+  // Leaves out the optional tasks that need no further visit. `is_kept`: by task.
+  void keep_options(const std::vector<bool>& is_kept) {
+    std::erase_if(options_, [&](TaskIndex task) { return !is_kept[task]; });
+  }
+
   bool ends_with_plan() const {
-    return !has_goal_ && rests_ == Rests::kAnywhere && destination().has_value();
+    return !has_destination_ && rests_ == Rests::kAnywhere && destination().has_value();
   }
 
   AgentSpec spec() const {
@@ -65,7 +67,7 @@ class AgentLater {
     spec.start = instance_.pose_of(state_at(plan_.path, time_));
     spec.goal = destination();
     spec.working.reset();
-    if (const WorkTime* work = work_under_way())
+    if (const WorkTime* work = work_under_way(); work && is_left(work->task))
       spec.working = WorkBegun{instance_.task(work->task).id, time_ - work->begin};
     return spec;
   }
@@ -74,18 +76,22 @@ class AgentLater {
   AgentPlan plan(const std::vector<TaskIndex>& later) const {
     AgentPlan rest;
     for (const TaskIndex task : plan_.sequence)
-      if (std::ranges::count(left_, task) > 0) rest.sequence.push_back(later[task]);
+      if (is_left(task)) rest.sequence.push_back(later[task]);
     for (const WorkTime& work : plan_.work)
-      if (continues(work))
+      if (continues(work) && is_left(work.task))
         rest.work.push_back({later[work.task], work.begin - time_, work.end - time_});
     rest.path.assign(plan_.path.begin() + std::min(time_, end()), plan_.path.end());
     rest.cost = finish(rest);
-    rest.path.resize(static_cast<std::size_t>(rest.cost) + 1);
+    rest.path.resize(static_cast<std::size_t>(rest.cost) + 1, rest.path.back());
     return rest;
   }
 
  private:
   Time end() const { return static_cast<Time>(plan_.path.size()) - 1; }
+
+  bool is_left(TaskIndex task) const {
+    return std::ranges::count(left_, task) > 0 || std::ranges::count(options_, task) > 0;
+  }
 
   // True if the task execution is not completed at time_.
   bool continues(const WorkTime& work) const { return work.end > time_; }
@@ -100,7 +106,7 @@ class AgentLater {
 
   bool is_visited(TaskIndex index) const {
     const Task& task = instance_.task(index);
-    if (task.duration > 0)
+    if (task.has_stated_visits())
       return std::ranges::any_of(
           plan_.work, [&](const WorkTime& w) { return w.task == index && !continues(w); });
     const auto last = plan_.path.begin() + std::min(time_, end()) + 1;
@@ -115,14 +121,27 @@ class AgentLater {
     const auto rests_on = [&](TaskIndex task) {
       return instance_.task(task).cell == place_of_rest();
     };
-    if (has_goal_ || agent_.is_idle()) return agent_.goal;
-    const bool is_own = agent_.goal || std::ranges::any_of(agent_.tasks, rests_on);
+    if (has_destination_ || agent_.is_idle()) return agent_.goal;
+    const bool is_own = agent_.goal || std::ranges::any_of(agent_.tasks, rests_on) ||
+                        std::ranges::any_of(plan_.work, rests_on, &WorkTime::task);
     if (left_.empty()) {
-      if (rests_ == Rests::kAnywhere) return std::nullopt;
-      return is_own ? place_of_rest() : instance_.task(agent_.tasks.front()).cell;
+      if (rests_ == Rests::kWhereItMust)
+        return is_own ? place_of_rest() : instance_.task(agent_.tasks.front()).cell;
+      // An idle agent with optional tasks must not rest within a turn.
+      const bool within_turn = instance_.pose_of(plan_.path.back()).steps > 0;
+      return within_turn && !options_.empty() ? std::optional(place_of_rest()) : std::nullopt;
     }
-    if (!is_own || !visits_all() || std::ranges::any_of(left_, rests_on)) return std::nullopt;
+    if (!is_own || !visits_all() || std::ranges::any_of(left_, rests_on) || ends_on_option())
+      return std::nullopt;
     return place_of_rest();
+  }
+
+  // True if the agent rests on the place of an optional task that it visits later.
+  bool ends_on_option() const {
+    return std::ranges::any_of(plan_.work, [&](const WorkTime& work) {
+      return continues(work) && is_left(work.task) &&
+             instance_.task(work.task).cell == place_of_rest();
+    });
   }
 
   bool visits_all() const {
@@ -136,8 +155,10 @@ class AgentLater {
   const AgentPlan& plan_;
   const Time time_;
   const Rests rests_;
-  const bool has_goal_;
+  const bool has_destination_;
   std::vector<TaskIndex> left_;
+  std::vector<TaskIndex> options_;
+  std::vector<TaskIndex> made_;
 };
 
 // Returns a copy of `instance` in which agent i has the specification spec(i).
@@ -148,9 +169,18 @@ Instance with_specs(const Instance& instance, const Spec& spec) {
   for (const Task& task : instance.tasks()) {
     std::vector<std::string> agents;
     for (const AgentIndex agent : task.agents) agents.push_back(instance.agent(agent).id);
-    builder.add_task(task.id, task.cell, agents, task.duration);
+    builder.add_task(task.id, task.cell, agents, task.duration, task.need);
   }
   return std::move(builder).build();
+}
+
+// By task: how many of the agents with a choice must still visit it.
+std::vector<int> remaining_needs(const Instance& instance, const std::vector<AgentLater>& agents) {
+  std::vector<int> needs;
+  for (const Task& task : instance.tasks()) needs.push_back(task.needs_all() ? 0 : task.need);
+  for (const AgentLater& agent : agents)
+    for (const TaskIndex task : agent.made()) --needs[task];
+  return needs;
 }
 
 }  // namespace
@@ -177,21 +207,27 @@ Instance with_ends_of_plan(const Instance& instance, const Plan& plan,
 Remainder advance(const Instance& instance, const Plan& plan, Time time, Rests rests,
                   const std::vector<bool>& before) {
   GROVE_ASSERT(time >= 0, "a plan is never advanced to a time before 0");
-  GROVE_CHECK(!instance.has_choices(), "remainders do not support choices");
   std::vector<AgentLater> agents;
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i)
+    agents.emplace_back(instance, i, plan.agents[i], time, rests, !before.empty() && before[i]);
+  const std::vector<int> needs = remaining_needs(instance, agents);
+  std::vector<bool> is_kept;
+  for (const int need : needs) is_kept.push_back(need > 0);
   InstanceBuilder builder = InstanceBuilder::like(instance);
   std::vector<std::vector<std::string>> visitors(instance.tasks().size());
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
-    agents.emplace_back(instance, i, plan.agents[i], time, rests, !before.empty() && before[i]);
-    builder.add_agent(agents.back().spec());
-    for (const TaskIndex task : agents.back().left())
-      visitors[task].push_back(instance.agent(i).id);
+    AgentLater& agent = agents[i];
+    agent.keep_options(is_kept);
+    builder.add_agent(agent.spec());
+    for (const TaskIndex task : agent.left()) visitors[task].push_back(instance.agent(i).id);
+    for (const TaskIndex task : agent.options()) visitors[task].push_back(instance.agent(i).id);
   }
   std::vector<TaskIndex> later(instance.tasks().size(), -1);
   for (TaskIndex i = 0; i < instance.task_count(); ++i) {
     const Task& task = instance.task(i);
+    const auto need = task.needs_all() ? std::nullopt : std::optional(needs[i]);
     if (!visitors[i].empty())
-      later[i] = builder.add_task(task.id, task.cell, visitors[i], task.duration);
+      later[i] = builder.add_task(task.id, task.cell, visitors[i], task.duration, need);
   }
   Remainder rest{std::move(builder).build(), {}, {}};
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {

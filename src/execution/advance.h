@@ -22,14 +22,16 @@ struct Remainder {
 // anywhere, or only on a place where it may rest in the original instance.
 enum class Rests : std::uint8_t { kAnywhere, kWhereItMust };
 
-// Returns the remainder of `instance` and `plan` after `time` >= 0 time steps. Precondition:
-// `instance` has no choices.
+// Returns the remainder of `instance` and `plan` after `time` >= 0 time steps.
 // - Each agent starts in its pose at that time in `plan`: on a vertex or cell, on a road or within
 //   a turn, possibly at work.
 // - For each agent, the tasks that it has visited are removed from its tasks. Tasks that no agent
 //   must visit any more are removed. Agents keep their order and ids; tasks keep their ids.
+// - A task with a choice of agents loses the agents that have visited it, and needs as many visits
+//   less. If it needs no further visit, it is removed, and an agent that is executing it is free to
+//   stop.
 // - An agent without a destination that has visited all its tasks becomes idle.
-// - An agent without a destination that has tasks left may rest on one of the remaining tasks. An
+// - An agent without a destination that must visit tasks may rest on one of the remaining tasks. An
 //   instance cannot express that it may also rest on a task that it has visited. If `plan` ends on
 //   such a task for an agent, that place becomes its destination, so that the plan is valid.
 //   `ends_with_plan` marks these agents, and without_ends_of_plan() reverts the change.
@@ -42,7 +44,7 @@ enum class Rests : std::uint8_t { kAnywhere, kWhereItMust };
 // plan of `instance`. For this purpose an agent without a destination that has visited all its
 // tasks does not become idle. Its destination is a place where it may rest in `instance`, if
 // possible its last place in `plan`. Throws InstanceError if two agents would have the same
-// destination.
+// destination. Precondition for kWhereItMust: `instance` has no choices.
 Remainder advance(const Instance& instance, const Plan& plan, Time time,
                   Rests rests = Rests::kAnywhere, const std::vector<bool>& before = {});
 
@@ -58,7 +60,7 @@ Time finish_of_steps(const AgentPlan& plan, Time time);
 
 // Returns the plan of `instance` that consists of the first `time` steps of `plan` and then of
 // `rest`. Precondition: `rest` is a valid plan of `later`, which is the instance in the result of
-// advance(instance, plan, time).
+// advance(instance, plan, time). `instance` has no choices.
 Plan joined(const Instance& instance, const Plan& plan, Time time, const Instance& later,
             const Plan& rest);
 

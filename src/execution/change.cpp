@@ -131,7 +131,7 @@ class ChangeApplication {
     for (const Agent& agent : instance_.agents()) {
       if (instance_.world().place(agent.start) == blocked)
         throw InstanceError(field, fmt::format("'{}' is there", agent.id));
-      if (agent.goal == blocked)
+      if (agent.goal == blocked || std::ranges::count(agent.goals, blocked) > 0)
         throw InstanceError(field, fmt::format("it is the destination of '{}'", agent.id));
     }
     for (TaskIndex task = 0; task < instance_.task_count(); ++task)
@@ -162,6 +162,7 @@ class ChangeApplication {
       AgentSpec spec = instance_.spec(i);
       spec.start.place = place_now(spec.start.place);
       if (spec.goal) spec.goal = place_now(*spec.goal);
+      for (Place& goal : spec.goals) goal = place_now(goal);
       GROVE_CHECK(spec.start.place != kNoPlace && spec.goal.value_or(0) != kNoPlace,
                   "the start and the destination of an agent stay open");
       if (spec.working && is_dropped(spec.working->task)) spec.working.reset();
@@ -172,7 +173,7 @@ class ChangeApplication {
       if (dropped_[i]) continue;
       std::vector<std::string> agents;
       for (const AgentIndex agent : task.agents) agents.push_back(instance_.agent(agent).id);
-      tasks[i] = builder.add_task(task.id, place_now(task.cell), agents, task.duration);
+      tasks[i] = builder.add_task(task.id, place_now(task.cell), agents, task.duration, task.need);
     }
     for (std::size_t i = 0; i < change_.new_tasks.size(); ++i) add_new(builder, i);
     return std::move(builder).build();
@@ -189,7 +190,7 @@ class ChangeApplication {
     };
     if (place_now(task.place) == kNoPlace) fail("cell", "it is blocked");
     try {
-      builder.add_task(task.id, place_now(task.place), task.agents, task.duration);
+      builder.add_task(task.id, place_now(task.place), task.agents, task.duration, task.need);
     } catch (const InstanceError& error) {
       fail(error.field(), error.what());
     }
@@ -227,8 +228,12 @@ class ChangeApplication {
   bool is_affected(AgentIndex agent, const Changed& changed) const {
     const auto has_dropped = [&](TaskIndex task) { return dropped_[task]; };
     const AgentPlan& now = changed.plan.agents[agent];
-    return std::ranges::any_of(instance_.agent(agent).tasks, has_dropped) || changed.cut[agent] ||
-           now.sequence.size() < changed.instance.agent(agent).tasks.size();
+    const auto is_missing = [&](TaskIndex task) {
+      return std::ranges::count(now.sequence, task) == 0;
+    };
+    return std::ranges::any_of(instance_.agent(agent).tasks, has_dropped) ||
+           std::ranges::any_of(plan_.agents[agent].sequence, has_dropped) || changed.cut[agent] ||
+           std::ranges::any_of(changed.instance.agent(agent).tasks, is_missing);
   }
 
   const Instance& instance_;
@@ -241,7 +246,6 @@ class ChangeApplication {
 }  // namespace
 
 Changed apply(const Instance& instance, const Plan& plan, const InstanceChange& change) {
-  GROVE_CHECK(!instance.has_choices(), "changes do not support choices");
   return ChangeApplication(instance, plan, change).run();
 }
 

@@ -3,6 +3,7 @@
 // roads.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct NewTask {
   Place place = kNoPlace;
   std::vector<std::string> agents;  // by id
   Time duration = 0;
+  std::optional<int> need = {};  // nullopt: all its agents must visit it
 };
 
 struct InstanceChange {
@@ -29,18 +31,19 @@ struct InstanceChange {
 struct Changed {
   Instance instance;
   Plan plan;
-  // By AgentIndex: the agent's plan is no longer valid for its tasks, or one of its tasks was
-  // dropped.
+  // By AgentIndex: the agent's plan is no longer valid for the tasks that it must visit, or one of
+  // the tasks that it must visit, or visits by choice, was dropped.
   std::vector<bool> affected;
   std::vector<bool> cut;  // by AgentIndex: the path was cut before a closed place or road
 };
 
-// Applies a change. Preconditions: `instance` has no choices; `plan` is valid, or is Changed::plan
-// of an earlier change. If nothing is closed, all states keep their numbers, except for states at
-// work. Throws InstanceError with field "new_tasks/<i>/...", "dropped_tasks/<i>", "blocked/<i>" or
-// "closed_roads/<i>" if a part of the change is impossible. A place or road cannot be closed if an
-// agent starts there, or if it is the place of a destination or of a task that is not dropped. A
-// cell that is blocked on the map cannot be closed either.
+// Applies a change. Precondition: `plan` is valid, or is Changed::plan of an earlier change. New
+// tasks with a choice of agents affect no agent; the plan does not serve them. If nothing is
+// closed, all states keep their numbers, except for states at work. Throws InstanceError with field
+// "new_tasks/<i>/...", "dropped_tasks/<i>", "blocked/<i>" or "closed_roads/<i>" if a part of the
+// change is impossible. A place or road cannot be closed if an agent starts there, or if it is the
+// place of a destination (also one of several) or of a task that is not dropped. A cell that is
+// blocked on the map cannot be closed either.
 Changed apply(const Instance& instance, const Plan& plan, const InstanceChange& change);
 
 }  // namespace grove::detail

@@ -2,7 +2,7 @@
 #include "io/agents_entry.h"
 
 #include <algorithm>
-#include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 namespace grove::detail {
@@ -30,6 +30,13 @@ std::vector<std::string> agents_of_task(const JsonValue& task,
         .fail(
             "there is no agent '*'; expected \"agents\": \"*\", without brackets, for all agents");
   return ids;
+}
+
+std::optional<int> need_of_task(const JsonValue& task, std::size_t agents) {
+  const auto need = task.find("need");
+  if (!need || agents == 0) return std::nullopt;
+  return static_cast<int>(
+      need->integer(1, static_cast<std::int64_t>(agents), ", the number of agents of the task"));
 }
 
 }  // namespace grove::detail

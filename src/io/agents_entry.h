@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The key "agents" of a task: a list of ids, or "*".
+// The keys "agents" of a task, a list of ids or "*", and "need".
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,5 +21,9 @@ bool is_for_all_agents(const JsonValue& task);
 // an agent has this id.
 std::vector<std::string> agents_of_task(const JsonValue& task,
                                         const std::function<std::vector<std::string>()>& all_ids);
+
+// Returns the need of `task`, from 1 to `agents`, the number of its agents; nullopt if it states
+// none, or if it has no agents. Throws InputError for other values.
+std::optional<int> need_of_task(const JsonValue& task, std::size_t agents);
 
 }  // namespace grove::detail

@@ -18,6 +18,7 @@ NewTask read_task(const JsonValue& json, const Instance& instance) {
   task.agents = agents_of_task(json, [&] { return instance.agent_ids(); });
   if (const auto duration = json.find("duration"))
     task.duration = static_cast<Time>(duration->integer(0, InstanceBuilder::kMaxDuration));
+  task.need = need_of_task(json, task.agents.size());
   return task;
 }
 
@@ -26,7 +27,7 @@ NewTask read_task(const JsonValue& json, const Instance& instance) {
 std::vector<ReadTask> read_new_tasks(const std::filesystem::path& path, const Instance& instance) {
   const JsonDocument document(path);
   const auto list = document.root().find("tasks");
-  require_known_keys(document.root(), list ? new_tasks_keys() : new_task_keys());
+  require_known_keys(document.root(), list ? new_tasks_keys() : task_keys());
   std::vector<ReadTask> tasks;
   if (!list) {
     tasks.push_back({read_task(document.root(), instance), ""});

@@ -139,20 +139,12 @@ Time read_duration(const JsonValue& task) {
   return duration ? static_cast<Time>(duration->integer(0, InstanceBuilder::kMaxDuration)) : 0;
 }
 
-// `agents`: the number of agents of the task. If it is 0, add_task() refuses the task.
-std::optional<int> read_need(const JsonValue& task, std::size_t agents) {
-  const auto need = task.find("need");
-  if (!need || agents == 0) return std::nullopt;
-  return static_cast<int>(
-      need->integer(1, static_cast<std::int64_t>(agents), ", the number of agents of the task"));
-}
-
 void add_task(InstanceBuilder& builder, const JsonValue& task) {
   const std::string id = task.member("id").text();
   const JsonValue cell = task.member("cell");
   const std::vector<std::string> agents = agents_of_task(task, [&] { return builder.agent_ids(); });
   const Time duration = read_duration(task);
-  const std::optional<int> need = read_need(task, agents.size());
+  const std::optional<int> need = need_of_task(task, agents.size());
   if (builder.roadmap()) {
     const Place place = read_vertex(*builder.roadmap(), cell);
     at_place_of(task, [&] { builder.add_task(id, place, agents, duration, need); });

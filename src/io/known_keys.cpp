@@ -63,15 +63,6 @@ const KnownObject& agent_keys() {
   return known;
 }
 
-const KnownObject& task_keys() {
-  static const KnownObject known = [] {
-    KnownObject keys = new_task_keys();
-    keys.keys.push_back({"need", nullptr, {"needs", "required", "visits"}});
-    return keys;
-  }();
-  return known;
-}
-
 KnownObject robots_of(std::string_view name, Words worlds) {
   KnownObject known{name, {}};
   for (const std::string_view world : worlds) known.keys.push_back({world});
@@ -285,18 +276,19 @@ void require_known(const JsonValue& object, const KnownObject& known, const Know
 
 }  // namespace
 
-const KnownObject& new_task_keys() {
+const KnownObject& task_keys() {
   static const KnownObject known{
       "a task",
       {{"id", nullptr, {"name"}},
        {"cell", nullptr, {"place", "position", "pos", "location", "vertex", "node", "goal"}},
        {"agents", nullptr, {"robots", "vehicles", "agent", "robot"}},
-       {"duration", nullptr, {"time", "service_time", "work"}}}};
+       {"duration", nullptr, {"time", "service_time", "work"}},
+       {"need", nullptr, {"needs", "required", "visits"}}}};
   return known;
 }
 
 const KnownObject& new_tasks_keys() {
-  static const KnownObject known{"the file", {{"tasks", &new_task_keys()}}};
+  static const KnownObject known{"the file", {{"tasks", &task_keys()}}};
   return known;
 }
 

@@ -39,7 +39,7 @@ const KnownObject& roadmap_keys();
 const KnownObject& plan_keys();
 // The keys of a file with new tasks, which has a list of tasks or is a single task.
 const KnownObject& new_tasks_keys();
-const KnownObject& new_task_keys();
+const KnownObject& task_keys();
 const KnownObject& solver_keys();
 
 // Checks the keys of `value` and of the objects in it. Throws WrongFileKind if the file lacks one

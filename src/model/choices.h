@@ -31,6 +31,9 @@ Choice choice_of_agents(const Instance& instance, TaskIndex task);
 std::string refusal_text(const Choice& choice, std::string_view reason,
                          std::string_view remedy = "");
 
+// Remedy for parts of Grove that need only an instance without choices and a plan of it.
+inline constexpr std::string_view kFixedChoices = "an instance of 'grove convert --fix-choices'";
+
 // Throws InstanceError with refusal_text() if the instance has a choice.
 void require_no_choices(const Instance& instance, std::string_view reason,
                         std::string_view remedy = "");

@@ -135,6 +135,14 @@ Path walked_path(const Instance& instance, AgentIndex agent, const AgentPlan& gi
   return path;
 }
 
+void end_on_the_place_of_rest(const Instance& instance, AgentIndex agent, AgentPlan& plan) {
+  const auto is_stated = [&](TaskIndex task) { return instance.task(task).has_stated_visits(); };
+  if (!instance.rests_on_last_stop(agent) || std::ranges::any_of(plan.sequence, is_stated)) return;
+  const Place rest = instance.world().place(plan.path.back());
+  std::stable_partition(plan.sequence.begin(), plan.sequence.end(),
+                        [&](TaskIndex task) { return instance.task(task).cell != rest; });
+}
+
 Plan standing_plan(const Instance& instance) {
   Plan plan;
   for (const Agent& agent : instance.agents())

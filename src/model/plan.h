@@ -66,6 +66,11 @@ AgentPlan plan_of_path(const Instance& instance, AgentIndex agent, const Path& p
 // turn or is the agent's start. Precondition: `plan` is valid.
 Path walked_path(const Instance& instance, AgentIndex agent, const AgentPlan& plan);
 
+// If the agent rests on the last stop of its sequence, moves the tasks on its last place to the end
+// of the sequence. They may be earlier in the sequence if the path visits that place several times.
+// Changes nothing if the plan states visits, because these have their times.
+void end_on_the_place_of_rest(const Instance& instance, AgentIndex agent, AgentPlan& plan);
+
 struct Plan {
   Cost cost = 0;                  // sum of the agents' costs
   std::vector<AgentPlan> agents;  // by AgentIndex

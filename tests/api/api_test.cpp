@@ -274,25 +274,54 @@ TEST(Api, PlansFromPathsNeedTheStatedVisits) {
             "/work/1/0/task");
 }
 
-TEST(Api, ChoicesAreSolvedButNotReplanned) {
+TEST(Api, ChoicesAreSolvedAndReplanned) {
   const Instance instance = with_choices();
   const Solution solution = solve(instance);
   ASSERT_TRUE(solution.plan);
   EXPECT_EQ(check(instance, *solution.plan).size(), 0u);
   EXPECT_EQ(field_of([&] { solve(instance, {.method = "mgcbs"}); }), "/method");
-  EXPECT_EQ(field_of([&] { Session session(instance); }), "/agents/0/goals");
-  EXPECT_EQ(field_of([&] { Session session(instance, plan_with_choices()); }), "/agents/0/goals");
+  Session session(instance, plan_with_choices());
+  session.advance(3);  // red has looked, and pushes
+  ASSERT_EQ(session.instance().tasks().size(), 1u);
+  ASSERT_TRUE(session.instance().agents()[0].working);
+  EXPECT_EQ(session.instance().agents()[0].working->done, 1);
+  session.change(
+      {.new_tasks = {{.id = "new", .place = Cell{4, 1}, .need = 1, .all_agents = true}}});
+  EXPECT_FALSE(session.plan());
+  EXPECT_EQ(session.instance().tasks().back().need, 1);
+  const Solution again = session.replan({.omega = 0, .visit_weight = 10});
+  ASSERT_TRUE(again.plan);
+  EXPECT_EQ(check(session.instance(), again).size(), 0u);
+  EXPECT_LE(again.lower_bound, again.plan->cost);
+  for (const int weight : {-1, 101})
+    EXPECT_EQ(field_of([&] { session.replan({.visit_weight = weight}); }), "/visit_weight");
+}
+
+TEST(Api, NewTasksOfASessionHaveANeed) {
   Session session(small());
-  Task task{.id = "new", .place = Cell{1, 0}, .agents = {"red", "blue"}, .need = 1};
+  Task task{.id = "new", .place = Cell{1, 0}, .agents = {"red", "blue"}, .need = 3};
   EXPECT_EQ(field_of([&] { session.change({.new_tasks = {task}}); }), "/new_tasks/0/need");
-  task.need = 2;
+  task.need = 1;
   EXPECT_EQ(field_of([&] { session.change({.new_tasks = {task}}); }), "nothing thrown");
+  EXPECT_TRUE(session.instance().has_choices());
   EXPECT_EQ(
       field_of([&] {
         session.change({.new_tasks = {{.id = "all", .place = Cell{1, 0}, .all_agents = true}}});
       }),
       "nothing thrown");
   EXPECT_THAT(session.instance().tasks().back().agents, ElementsAre("red", "blue"));
+}
+
+TEST(Api, ChoicesAreFixed) {
+  const FixedChoices fixed = fix_choices(with_choices(), plan_with_choices());
+  EXPECT_FALSE(fixed.instance.has_choices());
+  EXPECT_EQ(check(fixed.instance, fixed.plan).size(), 0u);
+  EXPECT_EQ(fixed.plan.cost, 4);
+  EXPECT_EQ(fixed.instance.agents()[0].goal, Place(Cell{2, 0}));
+  for (const Task& task : fixed.instance.tasks()) EXPECT_THAT(task.agents, ElementsAre("red"));
+  Plan wrong = plan_with_choices();
+  ++wrong.cost;
+  EXPECT_EQ(field_of([&] { fix_choices(with_choices(), wrong); }), "/cost");
 }
 
 TEST(Api, PlansRoundTripThroughFiles) {

@@ -19,6 +19,7 @@
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/joint_oracle.h"
 #include "tests/support/fuzz_factor.h"
+#include "tests/support/instances.h"
 #include "tests/support/random_choices.h"
 
 namespace grove::detail {
@@ -92,6 +93,95 @@ TEST(Assignment, PlansWithAnAssignmentAreValid) {
   });
   EXPECT_GT(plans, 100);
   EXPECT_GT(4 * optimal, plans);
+}
+
+// Plans with the choices of a plan fixed.
+TEST(FixChoices, PlanStaysValidWithTheSameCost) {
+  int plans = 0;
+  int with_new_goal = 0;
+  for_each_instance(300, [&](const Instance& instance, const oracle::Answer& truth) {
+    if (!truth.plan) return;
+    const FixedChoices fixed = fix_choices(instance, *truth.plan);
+    EXPECT_FALSE(fixed.instance.has_choices());
+    EXPECT_EQ(verdict(fixed.instance, fixed.plan), "");
+    EXPECT_EQ(fixed.plan.cost, truth.plan->cost);
+    EXPECT_EQ(fixed.instance.task_count(), instance.task_count());
+    const Assignment assignment = assignment_of(instance, *truth.plan);
+    EXPECT_TRUE(is_complete(instance, assignment));
+    for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+      EXPECT_EQ(fixed.plan.agents[i].path, truth.plan->agents[i].path);
+      EXPECT_EQ(fixed.instance.agent(i).tasks.size(),
+                instance.agent(i).tasks.size() + assignment[i].visits.size());
+      with_new_goal += fixed.instance.agent(i).goal && !instance.agent(i).has_destination() ? 1 : 0;
+    }
+    const Plan again = with_stated_visits(instance, fixed.plan);
+    EXPECT_EQ(verdict(instance, again), "");
+    ++plans;
+  });
+  EXPECT_GT(plans, 100);
+  EXPECT_GT(with_new_goal, 0);
+}
+
+// "a" visits t and moves on, "b" visits t as well, "c" stays, and "d" ends on its own task.
+TEST(FixChoices, EachAgentHasTheTasksThatItVisits) {
+  InstanceBuilder builder(testing::grid_of({".....", "....."}));
+  const std::vector<std::string> ids{"a", "b", "c", "d"};
+  for (const Place start : {0, 4, 5, 9}) {
+    const std::string& id = ids[static_cast<std::size_t>(builder.agent_ids().size())];
+    builder.add_agent(id, start, std::nullopt);
+  }
+  builder.add_task("t", Place{1}, ids, 0, 1);
+  builder.add_task("long", Place{8}, ids, 2, 1);
+  const Instance instance = std::move(builder).build();
+  const Plan plan{9,
+                  {{3, {0}, {0, 1, 6, 7}, {{0, 1, 1}}},
+                   {3, {0}, {4, 3, 2, 1}, {{0, 3, 3}}},
+                   {0, {}, {5}, {}},
+                   {3, {1}, {9, 8, 8, 8}, {{1, 1, 3}}}}};
+  ASSERT_EQ(verdict(instance, plan), "");
+  const FixedChoices fixed = fix_choices(instance, plan);
+  EXPECT_EQ(verdict(fixed.instance, fixed.plan), "");
+  EXPECT_EQ(fixed.plan.cost, 9);
+  EXPECT_EQ(fixed.instance.task(0).agents, (std::vector<AgentIndex>{0, 1}));
+  EXPECT_EQ(fixed.instance.task(1).agents, (std::vector<AgentIndex>{3}));
+  EXPECT_EQ(fixed.instance.agent(0).goal, Place{7});  // it rests on no task that it visits
+  for (const AgentIndex agent : {1, 2, 3})
+    EXPECT_EQ(fixed.instance.agent(agent).goal, std::nullopt) << agent;
+  EXPECT_TRUE(fixed.instance.agent(2).is_idle());
+}
+
+// A visit that the plan states after the agent has come to rest.
+TEST(FixChoices, VisitAfterTheRestIsNotPaid) {
+  InstanceBuilder builder(testing::grid_of({"..."}));
+  builder.add_agent("a", Place{0}, std::nullopt);
+  builder.add_agent("b", Place{2}, std::nullopt);
+  builder.add_task("t", Place{1}, std::vector<std::string>{"a", "b"}, 0, 1);
+  const Instance instance = std::move(builder).build();
+  const Plan plan{3, {{3, {0}, {0, 1, 1, 1}, {{0, 3, 3}}}, {0, {}, {2}, {}}}};
+  ASSERT_EQ(verdict(instance, plan), "");
+  const FixedChoices fixed = fix_choices(instance, plan);
+  EXPECT_EQ(verdict(fixed.instance, fixed.plan), "");
+  EXPECT_EQ(fixed.plan.cost, 1);
+}
+
+// The search from a plan keeps its assignment, and improvement never raises the cost of the routes.
+TEST(AssignmentSearch, FirstFromAPlanIsTheAssignmentOfThePlan) {
+  int plans = 0;
+  for_each_instance(300, [&](const Instance& instance, const oracle::Answer& truth) {
+    if (!truth.plan) return;
+    const DistanceFields distances(instance);
+    for (const Cost weight : {0, 7}) {
+      AssignmentSearch search(instance, distances, 1, weight);
+      const auto first = search.first_from(*truth.plan, Limits());
+      ASSERT_TRUE(first);
+      EXPECT_TRUE(is_complete(instance, *first));
+      const Cost cost = search.routes().cost();
+      EXPECT_TRUE(is_complete(instance, search.improved(1000, Limits())));
+      EXPECT_LE(search.routes().cost(), cost);
+      plans += *first == assignment_of(instance, *truth.plan) ? 1 : 0;
+    }
+  });
+  EXPECT_GT(plans, 200);
 }
 
 TEST(Assignment, BoundsAreTrue) {

@@ -13,7 +13,6 @@
 #include "tests/execution/delays.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/joint_oracle.h"
-#include "tests/support/choices.h"
 #include "tests/support/clocks.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
@@ -53,28 +52,6 @@ Session session_of(const Instance& instance) {
   Session session(instance);
   solved(session, Omega());
   return session;
-}
-
-TEST(Session, RefusesChoices) {
-  const auto refused = [](const auto& make) {
-    try {
-      make();
-    } catch (const InstanceError& error) {
-      return error.field() + ": " + error.what();
-    }
-    return std::string("accepted");
-  };
-  const std::string goals =
-      "agents/0/goals: agent 'a0' has a choice of goals, which re-planning does not support yet; "
-      "expected 'goal'";
-  EXPECT_EQ(refused([] { Session session(testing::instance_with_goals()); }), goals);
-  EXPECT_EQ(refused([] {
-              Session session(testing::instance_with_goals(), *testing::solution_with_goals().plan);
-            }),
-            goals);
-  EXPECT_EQ(refused([] { Session session(testing::instance_with_need()); }),
-            "tasks/0/need: task 't0' has a choice of agents, which re-planning does not support "
-            "yet; expected no 'need' below the number of its agents");
 }
 
 TEST(Session, AdvancesAlongItsPlan) {

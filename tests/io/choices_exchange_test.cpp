@@ -218,6 +218,17 @@ TEST_F(ChoicesExchange, NewTasksOfAllAgents) {
             "f: /agents: found \"all\"; expected a list of ids, or \"*\" for all agents");
 }
 
+TEST_F(ChoicesExchange, NewTasksHaveANeed) {
+  const auto read = [&](const std::string& need) {
+    return read_new_tasks(
+        directory_.write("f",
+                         R"({"id": "t", "cell": [2, 0], "agents": "*", "need": )" + need + "}"),
+        instance_with_goals());
+  };
+  EXPECT_EQ(read("1").front().task.need, 1);
+  EXPECT_EQ(refusal([&] { read("0"); }).substr(0, 10), "f: /need: ");
+}
+
 TEST_F(ChoicesExchange, PassingOrdersRefuseChoices) {
   const auto refused_by_order = [](const Instance& instance, const Solution& solution) {
     try {
@@ -227,12 +238,15 @@ TEST_F(ChoicesExchange, PassingOrdersRefuseChoices) {
     }
     return std::string("accepted");
   };
-  EXPECT_EQ(refused_by_order(instance_with_goals(), solution_with_goals()),
-            "agents/0/goals: agent 'a0' has a choice of goals, which passing orders do not support "
-            "yet; expected 'goal'");
-  EXPECT_EQ(refused_by_order(instance_with_need(), solution_with_need()),
-            "tasks/0/need: task 't0' has a choice of agents, which passing orders do not support "
-            "yet; expected no 'need' below the number of its agents");
+  EXPECT_EQ(
+      refused_by_order(instance_with_goals(), solution_with_goals()),
+      "agents/0/goals: agent 'a0' has a choice of goals, which passing orders do not support; "
+      "expected an instance of 'grove convert --fix-choices', or 'goal'");
+  EXPECT_EQ(
+      refused_by_order(instance_with_need(), solution_with_need()),
+      "tasks/0/need: task 't0' has a choice of agents, which passing orders do not support; "
+      "expected an instance of 'grove convert --fix-choices', or no 'need' below the number of its "
+      "agents");
 }
 
 TEST_F(ChoicesExchange, InstancesWithoutChoicesAreAccepted) {

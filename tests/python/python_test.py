@@ -285,19 +285,34 @@ class Solving(unittest.TestCase):
                 grove.Plan(instance, paths, work=work)
             self.assertEqual(caught.exception.field, field)
 
-    def test_choices_are_solved_but_not_replanned(self):
+    def test_choices_are_solved_and_replanned(self):
         instance = self.with_choices()
         plan = grove.solve(instance)
         self.assertEqual(grove.check(plan), [])
         with self.assertRaisesRegex(grove.InvalidArgument, "which method mgcbs does not support"):
             grove.solve(instance, method="mgcbs")
-        with self.assertRaisesRegex(grove.InvalidArgument, "/agents/0/goals: .* re-planning does not support yet"):
-            grove.Session(instance)
-        session = grove.Session(small())
-        with self.assertRaisesRegex(grove.InvalidArgument, "/new_tasks/0/need: found 1; expected 2"):
-            session.change(new_tasks=[{"id": "n", "cell": (0, 2), "agents": "*", "need": 1}])
-        session.change(new_tasks=[{"id": "n", "cell": (0, 2), "agents": "*"}])
-        self.assertEqual(session.instance.tasks[-1]["agents"], ["red", "blue"])
+        session = grove.Session(grove.Plan(instance, [[(0, 0), (1, 0), (2, 0)], [(4, 0)]],
+                                           work=[[("push", 2, 4), ("look", 1, 1)], []]))
+        session.advance(3)
+        self.assertEqual([t["id"] for t in session.instance.tasks], ["push"])
+        self.assertEqual(session.instance.agents[0]["working"], {"task": "push", "done": 1})
+        session.change(new_tasks=[{"id": "n", "cell": (0, 2), "agents": "*", "need": 1}])
+        self.assertEqual(session.instance.tasks[-1]["need"], 1)
+        self.assertEqual(grove.check(session.replan(visit_weight=10)), [])
+        with self.assertRaisesRegex(grove.InvalidArgument, "found 101; expected from 0 to 100"):
+            session.replan(visit_weight=101)
+
+    def test_choices_are_fixed(self):
+        plan = grove.Plan(self.with_choices(), [[(0, 0), (1, 0), (2, 0)], [(4, 0)]],
+                          work=[[("push", 2, 4), ("look", 1, 1)], []])
+        fixed = grove.fix_choices(plan)
+        self.assertEqual(grove.check(fixed), [])
+        self.assertEqual(fixed.cost, plan.cost)
+        self.assertFalse(fixed.instance.has_choices)
+        self.assertEqual([t["agents"] for t in fixed.instance.tasks], [["red"], ["red"]])
+        self.assertEqual(fixed.instance.agents[0]["goal"], [2, 0])
+        with self.assertRaises(grove.InvalidArgument):
+            grove.fix_choices(grove.Plan(self.with_choices(), [[(0, 0)], [(4, 0)]], work=[[], []]))
 
     def test_session_replans_after_delays_and_changes(self):
         session = grove.Session(small())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // grove convert: the command line. Its forms are grove convert INSTANCE OUT, grove convert --plan
-// PLAN INSTANCE OUT, and grove convert ROADS OUT or MAP OUT.
+// PLAN INSTANCE OUT, grove convert --fix-choices PLAN INSTANCE OUT, and grove convert ROADS OUT or
+// MAP OUT.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -69,6 +70,11 @@ of --cell-size metres, relative to --origin; on a roadmap its coordinates. A ste
 --seconds-per-step. They describe the plan by the clock. Robots that may be late need the passing
 order: 'grove execute --order'.
 
+--fix-choices PLAN: PLAN is a plan of INSTANCE. In OUT each agent must visit the tasks that it visits
+in PLAN, and has the goal on which it ends there. An agent without a goal that must visit no task,
+and then ends elsewhere than on a task that it has visited, gets its last place as its goal. The
+same paths, as a plan of OUT, are written beside OUT: fixed.plan.json for fixed.cts.json.
+
 Lengths and times of roads are converted to steps, rounded up, at least 1:
   --metres-per-step D   a robot moves D metres per step: length / D steps
   --seconds-per-step S  a step lasts S seconds: time / S steps. The time of an edge is the duration
@@ -94,6 +100,7 @@ Examples:
   grove convert random-32-32-20-even-1.scen --map random-32-32-20.map --agents 50 fifty.yaml
   grove convert problem.json --from mapfw problem.cts.json
   grove convert --plan warehouse.plan.json warehouse.cts.json warehouse.txt --to mapf-visualizer
+  grove convert any.cts.json fixed.cts.json --fix-choices any.plan.json
   grove convert office.yaml office.map --cell-size 0.5 --robot-radius 0.2
   grove convert --plan my.plan.json my.cts.json my.csv --to waypoints --cell-size 0.5 \
         --seconds-per-step 0.8
@@ -130,6 +137,7 @@ void require_no_options_of_roads(const ConvertArguments& arguments, bool has_tim
 void require_no_options_of_instances(const ConvertArguments& arguments) {
   const std::string instances = "instances and plans";
   require_use(!arguments.plan.empty(), false, "--plan", instances);
+  require_use(!arguments.fix_choices.empty(), false, "--fix-choices", "instances");
   require_use(!arguments.map.empty(), false, "--map", instances);
   require_use(arguments.agents > 0, false, "--agents", instances);
   require_use(!arguments.drop.empty(), false, "--drop", instances);
@@ -169,6 +177,9 @@ void run(const ConvertArguments& arguments) {
   require_use(!arguments.drop.empty(), !is_plan, "--drop", "instances, not with --plan");
   require_distinct_files(arguments.output, arguments.instance, "the instance");
   require_distinct_files(arguments.output, arguments.plan, "the plan");
+  require_distinct_files(arguments.output, arguments.fix_choices, "the plan with the choices");
+  require_use(!arguments.fix_choices.empty(), !is_plan, "--fix-choices",
+              "instances, not with --plan");
   if (is_plan) {
     const PlanFormat to = plan_format("--to", arguments.to, arguments.output);
     const bool is_tracker = to == PlanFormat::kTracker || to == PlanFormat::kTrackerCsv;
@@ -182,6 +193,7 @@ void run(const ConvertArguments& arguments) {
               "a .scen INSTANCE, or an OUT with a map");
   require_use(!arguments.scenario.empty(), false, "--scenario", "--plan and --to tracker");
   require_use(arguments.flip_up_down, false, "--flip-up-down", "--plan and --to tracker");
+  if (!arguments.fix_choices.empty()) return convert_choices(arguments, from, to);
   convert_instance(arguments, from, to);
 }
 
@@ -217,6 +229,10 @@ void add_options(CLI::App& command, ConvertArguments& arguments) {
       ->type_name("");
   command
       .add_option("--plan", arguments.plan, "plan file of INSTANCE to convert, instead of INSTANCE")
+      ->type_name("PLAN");
+  command
+      .add_option("--fix-choices", arguments.fix_choices,
+                  "plan of INSTANCE whose choices of tasks and goals become fixed in OUT")
       ->type_name("PLAN");
   command.add_option("--from", arguments.from, "format of INSTANCE")->type_name("FORMAT");
   command.add_option("--to", arguments.to, "format of OUT")->type_name("FORMAT");

@@ -117,12 +117,16 @@ void convert_instance(const ConvertArguments& arguments, InstanceFormat from, In
   const LoadedInstance loaded = load(arguments, from);
   print_warnings(loaded.warnings);
   require_distinct_files(arguments.output, loaded.map_path, "the map");
-  write_representable(arguments, loaded.instance, from, [&] {
-    const Instance instance = reduced(loaded.instance, arguments, to);
-    write_as(arguments, loaded, instance, to);
-    fmt::print("wrote {}: {} agents, {} tasks\n", arguments.output, instance.agent_count(),
-               instance.task_count());
-  });
+  write_representable(arguments, loaded.instance, from,
+                      [&] { write_converted(arguments, loaded, loaded.instance, to); });
+}
+
+void write_converted(const ConvertArguments& arguments, const LoadedInstance& loaded,
+                     const Instance& instance, InstanceFormat to) {
+  const Instance result = reduced(instance, arguments, to);
+  write_as(arguments, loaded, result, to);
+  fmt::print("wrote {}: {} agents, {} tasks\n", arguments.output, result.agent_count(),
+             result.task_count());
 }
 
 }  // namespace grove::detail

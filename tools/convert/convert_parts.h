@@ -22,6 +22,7 @@ struct ConvertArguments {
   std::string instance;
   std::string output;
   std::string plan;
+  std::string fix_choices;  // plan whose choices are fixed
   std::string from;
   std::string to;
   std::string map;
@@ -51,6 +52,14 @@ LoadedInstance load(const ConvertArguments& arguments, InstanceFormat from);
 // file), and CLI::ValidationError if options contradict each other.
 void convert_instance(const ConvertArguments& arguments, InstanceFormat from, InstanceFormat to);
 void convert_plan(const ConvertArguments& arguments, InstanceFormat from, PlanFormat to);
+// Fixes the choices of INSTANCE as the plan --fix-choices makes them. Writes the instance without
+// choices to OUT, and its plan beside it.
+void convert_choices(const ConvertArguments& arguments, InstanceFormat from, InstanceFormat to);
+
+// Writes `instance` to OUT, which has format `to`, and prints a summary. If OUT needs a map file
+// and there is none, writes `loaded`'s map beside OUT.
+void write_converted(const ConvertArguments& arguments, const LoadedInstance& loaded,
+                     const Instance& instance, InstanceFormat to);
 
 // Returns whether INSTANCE is a road network of another tool or OUT is a roadmap, according to
 // --from, --to and the suffixes.

@@ -16,6 +16,7 @@
 #include "io/plan_file.h"
 #include "io/plan_import.h"
 #include "model/check.h"
+#include "model/choices.h"
 #include "tools/common/commands.h"
 #include "tools/common/frame_arguments.h"
 #include "tools/common/instance_arguments.h"
@@ -115,7 +116,7 @@ class Execution {
  private:
   static LoadedInstance load(const InstanceArguments& arguments) {
     LoadedInstance loaded = arguments.load();
-    arguments.require_no_choices(loaded.instance, "passing orders do not support yet");
+    arguments.require_no_choices(loaded.instance, "passing orders do not support", kFixedChoices);
     return loaded;
   }
 

@@ -96,7 +96,6 @@ class Replanning {
   // Reads the plan. If its file claims that it contains no following conflicts, forbids them in the
   // instance and therefore in the new plan.
   Plan read_plan() {
-    a_.solve.instance.require_no_choices(loaded_.instance, "re-planning does not support yet");
     Solution driven = read_plan_to_execute(a_.plan, loaded_.instance).solution;
     if (!driven.may_follow) loaded_.instance = loaded_.instance.without_following();
     return *std::move(driven.plan);

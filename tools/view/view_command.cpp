@@ -20,6 +20,7 @@
 #include "io/plan_import.h"
 #include "io/text_file.h"
 #include "model/check.h"
+#include "model/choices.h"
 #include "proof/certificate_text.h"
 #include "tools/common/commands.h"
 #include "tools/common/helper_program.h"
@@ -186,7 +187,7 @@ void require_valid(const Instance& instance, const NamedPlan& plan, std::string_
 
 void show_drive(const ViewArguments& arguments, const Instance& instance, const NamedPlan& plan) {
   // Passing orders do not have the visits that plans state.
-  arguments.instance.require_no_choices(instance, "--drive does not support yet", "no --drive");
+  arguments.instance.require_no_choices(instance, "--drive does not support", kFixedChoices);
   require_valid(instance, plan, "the valid plan that is executed");
   const std::string name = name_of(arguments.instance.name());
   const std::string data = page_data(name, instance, std::span(&plan, 1));

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -45,6 +47,10 @@ class ChoicesCommands : public ::testing::Test {
     return run_grove(words, {.directory = directory_.path()});
   }
   std::string refused(const std::vector<std::string>& words) const { return complaint(run(words)); }
+  std::string read(const std::string& name) const {
+    std::ifstream file(directory_ / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
   std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(directory_.path()))
@@ -103,39 +109,47 @@ TEST_F(ChoicesCommands, CheckVerifiesPlans) {
   EXPECT_EQ(run({"check", "goals.cts.json", "paths"}).exit_code, 0);
 }
 
-TEST_F(ChoicesCommands, ReplanRefuses) {
-  const std::size_t before = files().size();
-  const std::string reason = "re-planning does not support yet";
-  EXPECT_EQ(refused({"replan", "goals.cts.json", "goals.plan.json", "--at", "1"}),
-            "goals.cts.json: /agents/0/goals: " + kGoals + reason + kGoalsEnd);
-  EXPECT_EQ(refused({"replan", "need.cts.json", "need.plan.json", "--at", "1"}),
-            "need.cts.json: /tasks/0/need: " + kNeed + reason + kNeedEnd);
-  EXPECT_EQ(files().size(), before);
+TEST_F(ChoicesCommands, ReplanChoosesAgain) {
+  for (const std::string name : {"goals", "need"}) {
+    const ProcessResult done = run({"replan", name + ".cts.json", name + ".plan.json", "--at", "1",
+                                    "--quiet", "-o", "then.plan.json"});
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_EQ(run({"check", "then.cts.json", "then.plan.json"}).exit_code, 0);
+  }
+  // b has visited the task at time 1.
+  EXPECT_THAT(read("then.cts.json"), HasSubstr("\"tasks\": []"));
 }
 
-TEST_F(ChoicesCommands, NewTasksHaveNoNeed) {
-  directory_.write("fixed.cts.json", R"({"map": "m.map", "tasks": [], "agents": [
-      {"id": "a", "start": [1, 0], "goal": [0, 0]}, {"id": "b", "start": [3, 0], "goal": [4, 0]}]})");
-  directory_.write("new.json", R"({"id": "n", "cell": [0, 0], "agents": "*", "need": 1})");
+TEST_F(ChoicesCommands, ReplanAddsTasksWithANeed) {
+  directory_.write("new.json", R"({"id": "n", "cell": [3, 0], "agents": "*", "need": 1})");
+  const ProcessResult done = run({"replan", "need.cts.json", "need.plan.json", "--at", "0",
+                                  "--new-task", "new.json", "--quiet", "-o", "then.plan.json"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(run({"check", "then.cts.json", "then.plan.json"}).out.substr(0, 14), "valid: cost 4,");
+  directory_.write("bad.json", R"({"id": "n", "cell": [3, 0], "agents": ["a"], "need": 2})");
   EXPECT_EQ(
-      refused({"replan", "fixed.cts.json", "goals.plan.json", "--at", "0", "--new-task", "new.json",
+      refused({"replan", "need.cts.json", "need.plan.json", "--at", "0", "--new-task", "bad.json",
                "-o", "x.plan.json"}),
-      "new.json: /: unknown key 'need'; expected one of id, cell, agents, duration, or a name "
-      "that begins with '_', for a remark");
+      "bad.json: /need: found 2; expected an integer from 1 to 1, the number of agents of the "
+      "task");
 }
 
 TEST_F(ChoicesCommands, ExecuteRefuses) {
-  const std::string reason = "passing orders do not support yet";
+  const std::string reason =
+      "passing orders do not support; expected an instance of 'grove convert --fix-choices', or ";
   EXPECT_EQ(refused({"execute", "goals.cts.json", "goals.plan.json", "--order", "o.json"}),
-            "goals.cts.json: /agents/0/goals: " + kGoals + reason + kGoalsEnd);
+            "goals.cts.json: /agents/0/goals: " + kGoals + reason + "'goal'");
   EXPECT_EQ(refused({"execute", "need.cts.json", "need.plan.json", "--order", "o.json"}),
-            "need.cts.json: /tasks/0/need: " + kNeed + reason + kNeedEnd);
+            "need.cts.json: /tasks/0/need: " + kNeed + reason +
+                "no 'need' below the number of its agents");
   EXPECT_FALSE(std::filesystem::exists(directory_ / "o.json"));
 }
 
 TEST_F(ChoicesCommands, ViewRefusesADrive) {
   directory_.write("d.jsonl", "");
-  const std::string reason = "--drive does not support yet; expected no --drive, or ";
+  const std::string reason =
+      "--drive does not support; expected an instance of "
+      "'grove convert --fix-choices', or ";
   const auto refused_drive = [&](const std::string& name) {
     return refused({"view", name + ".cts.json", name + ".plan.json", "--drive", "d.jsonl"});
   };
@@ -176,6 +190,47 @@ TEST_F(ChoicesCommands, VerboseNamesTheCountersOfTheSearchForAssignments) {
       run({"solve", "need.cts.json", "--output", "x.plan.json", "--omega", "0", "--verbose"}).out;
   EXPECT_THAT(log, HasSubstr("\nChoices       assignments searched one after the other: 1\n"));
   EXPECT_THAT(log, HasSubstr("\nCores         "));
+}
+
+// The result is executed, re-planned and checked like any instance without choices.
+TEST_F(ChoicesCommands, ConvertFixesChoices) {
+  for (const std::string name : {"goals", "need"}) {
+    const std::string cost = name == "goals" ? "2" : "4";
+    const ProcessResult done = run({"convert", name + ".cts.json", name + "-fixed.cts.json",
+                                    "--fix-choices", name + ".plan.json"});
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_THAT(done.out, HasSubstr("wrote " + name + "-fixed.plan.json: 2 paths, cost " + cost));
+    EXPECT_EQ(run({"check", name + "-fixed.cts.json", name + "-fixed.plan.json"}).out,
+              "valid: cost " + cost + ", lower bound " + cost + ", gap 0.00 %, 2 agents\n");
+    EXPECT_EQ(
+        run({"execute", name + "-fixed.cts.json", name + "-fixed.plan.json", "--order", "o.json"})
+            .exit_code,
+        0);
+    EXPECT_EQ(
+        run({"replan", name + "-fixed.cts.json", name + "-fixed.plan.json", "--at", "1", "--quiet"})
+            .exit_code,
+        0);
+  }
+  EXPECT_THAT(read("goals-fixed.cts.json"), HasSubstr(R"("goal":[0,0])"));
+  EXPECT_THAT(read("need-fixed.cts.json"), HasSubstr(R"("agents":["b"])"));
+}
+
+TEST_F(ChoicesCommands, FixingChoicesRefusesWrongPlans) {
+  const std::size_t before = files().size();
+  EXPECT_EQ(
+      refused({"convert", "need.cts.json", "x.cts.json", "--fix-choices", "goals.plan.json"}),
+      "goals.plan.json: /agents: task 't' is visited by 0 of its agents; expected at least 1");
+  EXPECT_EQ(
+      refused({"convert", "need.cts.json", "need.cts.json", "--fix-choices", "need.plan.json"}),
+      "need.cts.json: is the instance; expected another file to write to");
+  EXPECT_EQ(
+      refused({"convert", "need.cts.json", "x.yaml", "--fix-choices", "need.plan.json"}),
+      "--fix-choices: OUT has another format; expected a *.cts.json (see 'grove convert --help')");
+  EXPECT_EQ(
+      refused({"convert", "need.cts.json", "x.csv", "--plan", "need.plan.json", "--fix-choices",
+               "need.plan.json", "--to", "waypoints"}),
+      "--fix-choices: allowed only with instances, not with --plan (see 'grove convert --help')");
+  EXPECT_EQ(files().size(), before);
 }
 
 TEST_F(ChoicesCommands, CertificatesAreRefused) {

@@ -537,7 +537,7 @@ class RefusedFiles(Case):
                 {"agents": "all"}, {"agents": ""}, {"agents": ["*", 1]}, {"agents": "*", "need": 0},
                 {"agents": "*", "need": -1}, {"agents": "*", "need": 1.5}, {"agents": "*", "need": "all"},
                 {"agents": "*", "need": None}, {"agents": "*", "need": 1 << 31}, {"need": 1})),
-            ("change", {"id": "t", "cell": [0, 0], "agents": ["red"], "need": 1}),
+            ("change", {"id": "t", "cell": [0, 0], "agents": ["red"], "need": 0}),
             ("change", {"id": "t", "cell": [0, 0], "agents": "all"}),
             ("roadmap", {**town, "vertices": []}),
             ("roadmap", {**town, "vertices": [{"id": "A", "at": [0, 0, 0]}]}),

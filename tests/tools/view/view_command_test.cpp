@@ -164,7 +164,8 @@ TEST_F(ViewOfChoices, PicturesHaveDashedOutlinesAndASecondRowInTheLegend) {
 TEST_F(ViewOfChoices, IsRefusedAsADrive) {
   EXPECT_THAT(complaint(run_grove({"view", directory_ / "i.json", directory_ / "plan.json",
                                    "--drive", directory_ / "drive.jsonl"})),
-              HasSubstr(", which --drive does not support yet; expected no --drive, or "));
+              HasSubstr(", which --drive does not support; expected an instance of "
+                        "'grove convert --fix-choices', or "));
 }
 
 TEST_F(ViewCommand, EscapesIds) {

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+// *Assignments.* The first is that of the old plan; insertion completes it if visits are missing,
+// for example those of new tasks, and leaves all other visits where they are. The second results
+// from the first by large neighbourhood search, so its routes never cost more. It is searched
+// first. Without a gain in the cost of the routes both are the same, and then only one search is
+// needed: agents do not exchange tasks without a gain.
+//
+// *Never worse.* If the old plan is valid, the plan with the second assignment must be better than
+// the old plan. Otherwise the first assignment is searched, which is that of the old plan, so this
+// search starts from the old plan and ends with a plan that costs at most as much. (A visit with
+// which the old plan exceeds the need of a task is left out. The agent is then planned again, and
+// the old plan is the result if this gives no better one.)
+//
+// *Committed steps.* Visits that the old plan makes or begins within the committed steps are part
+// of both assignments, so no other agent makes them a second time.
+#include "engine/assigned_search.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "assignment/assignment.h"
+#include "assignment/assignment_search.h"
+#include "assignment/choice_bounds.h"
+#include "assignment/infeasible_choices.h"
+#include "engine/adaptations.h"
+#include "engine/merged_observer.h"
+#include "engine/restriction.h"
+
+namespace grove::detail {
+namespace {
+
+// Shares of the time that is left: for the bound, for the second assignment, and for its search if
+// the search of the first one can follow.
+constexpr double kShareForBound = 0.05;
+constexpr double kShareForAssignment = 0.2;
+constexpr double kShareForSearch = 0.5;
+constexpr std::int64_t kInsertions = 100'000;  // into a route, for the second assignment (5 ms)
+
+class AssignedRun {
+ public:
+  AssignedRun(const AssignedSearch& search, const SolveOptions& options, const Limits& limits,
+              MergedObserver& merged)
+      : search_(search), options_(options), limits_(limits), merged_(merged) {}
+
+  Solution run() {
+    bound_ = lower_bound_of_choices(search_.instance, search_.distances, part(kShareForBound));
+    AssignmentSearch assignments(search_.instance, search_.distances, options_.seed,
+                                 options_.tuning.visit_weight);
+    const auto first = assignments.first_from(search_.old, limits_);
+    if (!first) return kept_plan(without_assignment());
+    const Assignment second = assignments.improved(kInsertions, part(kShareForAssignment));
+    const Assignment begun = begun_visits();
+    const Assignment last = with_visits(*first, begun);
+    const Assignment better = with_visits(second, begun);
+    Solution solution;
+    if (better != last) {
+      solution = search_one(better, part(kShareForSearch));
+      if (is_better_than_old(solution)) return solution;
+    }
+    return kept_plan(search_one(last, limits_));
+  }
+
+ private:
+  // Deterministic runs do not divide the time.
+  Limits part(double share) const {
+    const double seconds = limits_.seconds_left();
+    return {limits_, options_.deterministic ? seconds : share * seconds};
+  }
+
+  Solution without_assignment() const {
+    Solution solution;
+    if (limits_.stop_requested()) {
+      solution = stopped_solution(options_, limits_);
+    } else {
+      solution.omega = options_.omega;
+      solution.stats.texts["remark"] = "the insertion heuristic found no assignment; one may exist";
+    }
+    solution.lower_bound = bound_;
+    return solution;
+  }
+
+  // The visits to tasks with a choice that the old plan makes or begins in the committed steps.
+  Assignment begun_visits() const {
+    Assignment begun = assignment_of(search_.instance, search_.old);
+    for (AgentIndex i = 0; i < search_.instance.agent_count(); ++i) {
+      const std::vector<WorkTime>& work = search_.old.agents[i].work;
+      std::erase_if(begun[i].visits, [&](TaskIndex task) {
+        const WorkTime& visit = *std::ranges::find(work, task, &WorkTime::task);
+        return visit.begin >= search_.commit && visit.end > search_.commit;
+      });
+    }
+    return begun;
+  }
+
+  // Adds `visits`, and in return removes other visits that are then not needed.
+  Assignment with_visits(Assignment assignment, const Assignment& visits) const {
+    for (std::size_t i = 0; i < visits.size(); ++i)
+      for (const TaskIndex task : visits[i].visits) {
+        std::vector<TaskIndex>& own = assignment[i].visits;
+        if (std::ranges::binary_search(own, task)) continue;
+        own.insert(std::ranges::upper_bound(own, task), task);
+        remove_surplus(assignment, task, visits);
+      }
+    return assignment;
+  }
+  void remove_surplus(Assignment& assignment, TaskIndex task, const Assignment& kept) const {
+    const auto visits = [&](const AgentChoice& choice) {
+      return std::ranges::binary_search(choice.visits, task);
+    };
+    const auto count = std::ranges::count_if(assignment, visits);
+    for (std::size_t i = 0; i < assignment.size(); ++i)
+      if (count > search_.instance.task(task).need && visits(assignment[i]) && !visits(kept[i])) {
+        std::erase(assignment[i].visits, task);
+        return;
+      }
+  }
+
+  Solution search_one(const Assignment& assignment, const Limits& limits) {
+    const Restriction restriction{
+        .instance = with_assignment(search_.instance, assignment),
+        .to_whole = [&](const Plan& plan) { return with_stated_visits(search_.instance, plan); },
+        .bound = bound_,
+        .plans = "plans with the chosen assignment",
+        .has_no_plan = "the chosen assignment has no plan; other assignments may have one"};
+    const Instance& fixed = restriction.instance;
+    std::vector<bool> changed = search_.affected;
+    for (AgentIndex i = 0; i < fixed.agent_count(); ++i)
+      changed[i] = changed[i] || !serves(fixed, i, search_.old.agents[i]);
+    const Plan start = without_other_visits(fixed, search_.old);
+    Solution solution = solve_restriction(
+        restriction, options_.omega, limits, merged_,
+        [&](RunObserver& stage) { return search_.search(fixed, start, changed, limits, stage); });
+    // It would hold only for the assignment.
+    solution.stats.counts.erase("lower_bound_committed");
+    return solution;
+  }
+
+  Cost objective(const Plan& plan) const {
+    Cost visits = 0;
+    for (const AgentPlan& agent : plan.agents)
+      for (const WorkTime& work : agent.work) visits += work.end;
+    return plan.cost + options_.tuning.visit_weight * visits;
+  }
+  bool is_better_than_old(const Solution& solution) const {
+    return solution.plan &&
+           (!search_.is_valid || objective(*solution.plan) < objective(search_.old));
+  }
+  // The solution, with the old plan if it is valid and better.
+  Solution kept_plan(Solution solution) const {
+    if (!search_.is_valid || is_better_than_old(solution)) return solution;
+    if (solution.plan && objective(*solution.plan) == objective(search_.old)) return solution;
+    solution.plan = search_.old;
+    solution.status = status_of(search_.old.cost, bound_, options_.omega);
+    return solution;
+  }
+
+  const AssignedSearch& search_;
+  const SolveOptions& options_;
+  const Limits& limits_;
+  MergedObserver& merged_;
+  Cost bound_ = 0;  // for all assignments
+};
+
+}  // namespace
+
+Solution search_assigned(const AssignedSearch& search, const SolveOptions& options,
+                         const Limits& limits, RunObserver& observer) {
+  if (const auto reason = infeasible_choices(search.instance, search.distances)) {
+    observer.on_infeasible(*reason);
+    Solution solution;
+    solution.status = Status::kInfeasible;
+    solution.omega = options.omega;
+    solution.stats.texts["reason"] = *reason;
+    return solution;
+  }
+  MergedObserver merged(observer);
+  Solution solution = AssignedRun(search, options, limits, merged).run();
+  merged.end();
+  return solution;
+}
+
+}  // namespace grove::detail
