@@ -48,7 +48,16 @@ std::vector<const grove::Agent*> free_robots(const grove::Instance& now) {
 
 }  // namespace
 
-Given Assignment::give(const grove::Instance& now) {
+Given Assignment::give_to_any(const grove::Instance& now, std::size_t max_tasks) {
+  Given given;
+  while (!open_.empty() && now.tasks().size() + given.size() < max_tasks) {
+    given.emplace_back("", open_.front());
+    open_.pop_front();
+  }
+  return given;
+}
+
+Given Assignment::give_to_nearest(const grove::Instance& now) {
   std::set<std::string> taken;
   for (const grove::Task& task : now.tasks()) taken.insert(to_string(task.place));
   std::vector<const grove::Agent*> free = free_robots(now);

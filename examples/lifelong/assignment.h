@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Assigns errands to robots.
+// The open errands, and which robots they are for.
 #pragma once
 
 #include <cstddef>
@@ -13,21 +13,25 @@
 
 namespace lifelong {
 
-// Pairs of a robot's id and the errand that is assigned to it.
+// Pairs of the id of a robot, or "" for any robot, and an errand for it.
 using Given = std::vector<std::pair<std::string, Errand>>;
 
-// Greedy assignment in order of arrival at add(): each open errand goes to the nearest robot
-// without a task. An errand on the cell of a current task stays open, because the robot with that
-// task rests there until it gets a new task.
+// The open errands, in order of arrival at add().
 class Assignment {
  public:
   explicit Assignment(grove::World world) : world_(std::move(world)) {}
 
   void add(const Errand& errand) { open_.push_back(errand); }
 
-  // Assigns open errands to the robots in `now` that have no task, and removes them from the open
-  // errands. Each robot in `now` must have at most one task.
-  Given give(const grove::Instance& now);
+  // Both functions return errands and remove them from the open errands.
+  //
+  // Returns the oldest errands, for any robot, as long as there are at most `max_tasks` tasks
+  // together with those in `now`.
+  Given give_to_any(const grove::Instance& now, std::size_t max_tasks);
+  // Greedy assignment: each errand is for the nearest of the robots in `now` that have no task. An
+  // errand on the cell of a current task stays open, because the robot with that task rests there
+  // until it gets a new task. Each robot in `now` must have at most one task.
+  Given give_to_nearest(const grove::Instance& now);
 
  private:
   grove::World world_;

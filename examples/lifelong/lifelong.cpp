@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // grove-lifelong: a control loop around a Session. Errands arrive continuously. At each decision
-// the loop assigns open errands to robots without a task and re-plans.
+// the loop adds open errands to the session, as tasks of any robot or of the nearest robot without
+// a task, and re-plans.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include <grove/grove.hpp>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -25,9 +27,11 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kOmega = 0.01;
 constexpr double kPatientSeconds = 60;
+constexpr int kTasksPerRobot = 10;  // that the session has at most, if robots share them
+constexpr int kMoreSteps = 10'000;  // after the last arrival, before the loop stops waiting
 
 constexpr const char* kUsage =
-    R"(usage: grove-lifelong MAP [--OPTION NUMBER]...
+    R"(usage: grove-lifelong MAP [--OPTION VALUE]...
 
 Assigns errands to robots as they arrive, on a Moving AI map.
 
@@ -38,6 +42,10 @@ Assigns errands to robots as they arrive, on a Moving AI map.
   --think S       seconds for each decision (default: 0.1)
   --turn-steps N  steps of a quarter turn; 0: robots turn freely (default: 0)
   --seed N        seed of errands and starts (default: 0)
+  --assign RULE   any: each errand is a task that any robot may do, and Grove chooses the robot
+                  again at each decision; nearest: the errand is for the nearest robot without a
+                  task (default: any)
+  --visit-weight N  with any: weight of early visits against few steps (default: 10)
 )";
 
 struct BadUsage : std::runtime_error {
@@ -53,6 +61,8 @@ struct Arguments {
   double think_s = 0.1;
   int turn_steps = 0;
   int seed = 0;
+  bool any_robot = true;
+  int visit_weight = 10;
 };
 
 double number(const std::string& option, const std::string& text, double least, double most) {
@@ -70,12 +80,22 @@ int integer(const std::string& option, const std::string& text, int least) {
   return static_cast<int>(value);
 }
 
+bool is_any(const std::string& rule) {
+  if (rule != "any" && rule != "nearest")
+    throw BadUsage("--assign: found '" + rule + "'; expected any or nearest");
+  return rule == "any";
+}
+
 Arguments parse_arguments(const std::vector<std::string>& words) {
   Arguments arguments;
   const std::map<std::string, std::pair<int*, int>> integers{
-      {"--robots", {&arguments.robots, 1}}, {"--tasks", {&arguments.tasks, 1}},
-      {"--steps", {&arguments.steps, 1}},   {"--every", {&arguments.every, 1}},
-      {"--seed", {&arguments.seed, 0}},     {"--turn-steps", {&arguments.turn_steps, 0}}};
+      {"--robots", {&arguments.robots, 1}},
+      {"--tasks", {&arguments.tasks, 1}},
+      {"--steps", {&arguments.steps, 1}},
+      {"--every", {&arguments.every, 1}},
+      {"--seed", {&arguments.seed, 0}},
+      {"--turn-steps", {&arguments.turn_steps, 0}},
+      {"--visit-weight", {&arguments.visit_weight, 0}}};
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (!words[i].starts_with("--")) {
       if (!arguments.map.empty()) throw BadUsage("found two maps; expected one");
@@ -84,9 +104,12 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
     }
     const std::string& option = words[i];
     const auto found = integers.find(option);
-    if (found == integers.end() && option != "--think") throw BadUsage(option + ": no such option");
-    if (++i == words.size()) throw BadUsage(option + ": expected a number after it");
-    if (found == integers.end())
+    if (found == integers.end() && option != "--think" && option != "--assign")
+      throw BadUsage(option + ": no such option");
+    if (++i == words.size()) throw BadUsage(option + ": expected a value after it");
+    if (option == "--assign")
+      arguments.any_robot = is_any(words[i]);
+    else if (found == integers.end())
       arguments.think_s = number(option, words[i], 0, 1e6);
     else
       *found->second.first = integer(option, words[i], found->second.second);
@@ -98,7 +121,7 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
 struct Report {
   int done = 0;
   int done_by_the_end_of_arrivals = 0;
-  long waited = 0;  // sum over the done errands of the steps from arrival to visit
+  std::vector<int> waits;  // of each done errand: the steps from arrival to visit
   int last = 0;
   int decisions = 0;
   int without_plan = 0;
@@ -135,7 +158,8 @@ class Loop {
   }
 
   Report run() {
-    for (now_ = 0; report_.done < arguments_.tasks && now_ < 50 * arguments_.steps; ++now_) {
+    for (now_ = 0; report_.done < arguments_.tasks && now_ < arguments_.steps + kMoreSteps;
+         ++now_) {
       for (; next_ < errands_.size() && errands_[next_].arrives <= now_; ++next_)
         assignment_.add(errands_[next_]);
       if (now_ % arguments_.every == 0) decide();
@@ -146,13 +170,15 @@ class Loop {
 
  private:
   void decide() {
-    Given given = assignment_.give(session_.instance());
+    Given given = give();
     return_excess(given, at_once_);
     if (given.empty()) return;
     const auto start = Clock::now();
     add_tasks(given);
     const double left = std::max(0.0, arguments_.think_s - seconds_since(start));
-    const bool is_planned = session_.replan({.omega = kOmega, .time_limit = left}).plan.has_value();
+    const grove::Options options{
+        .omega = kOmega, .time_limit = left, .visit_weight = arguments_.visit_weight};
+    const bool is_planned = session_.replan(options).plan.has_value();
     if (!is_planned) drop_tasks(given);
     // Adapts the number of new errands per decision to the number that can be planned in time.
     at_once_ =
@@ -162,11 +188,22 @@ class Loop {
     report_.seconds.push_back(seconds_since(start));
   }
 
+  Given give() {
+    if (!arguments_.any_robot) return assignment_.give_to_nearest(session_.instance());
+    return assignment_.give_to_any(session_.instance(),
+                                   static_cast<std::size_t>(kTasksPerRobot * arguments_.robots));
+  }
+
   void add_tasks(const Given& given) {
     grove::Change change;
     for (const auto& [robot, errand] : given) {
       const std::string id = std::to_string(errand.id);
-      change.new_tasks.push_back({.id = id, .place = errand.cell, .agents = {robot}});
+      grove::Task task{.id = id, .place = errand.cell, .need = 1};
+      if (robot.empty())
+        task.all_agents = true;
+      else
+        task.agents = {robot};
+      change.new_tasks.push_back(std::move(task));
       arrived_[id] = errand.arrives;
     }
     session_.change(change);
@@ -206,7 +243,7 @@ class Loop {
       if (open.contains(errand.first)) return false;
       ++report_.done;
       report_.done_by_the_end_of_arrivals += now_ + 1 <= arguments_.steps ? 1 : 0;
-      report_.waited += now_ + 1 - errand.second;
+      report_.waits.push_back(now_ + 1 - errand.second);
       report_.last = now_ + 1;
       return true;
     });
@@ -223,19 +260,23 @@ class Loop {
   Report report_;
 };
 
-void print(const Arguments& arguments, Report report) {
-  std::ranges::sort(report.seconds);
-  const auto at = [&](double part) {
-    if (report.seconds.empty()) return 0.0;
-    const double last = static_cast<double>(report.seconds.size() - 1);
-    return 1000 * report.seconds[static_cast<std::size_t>(part * last)];
-  };
+// Returns the value below which `part` of the values are; 0 without values.
+double quantile(std::vector<double> values, double part) {
+  if (values.empty()) return 0;
+  std::ranges::sort(values);
+  return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
+}
+
+void print(const Arguments& arguments, const Report& report) {
+  const std::vector<double> waits(report.waits.begin(), report.waits.end());
+  const double sum = std::accumulate(waits.begin(), waits.end(), 0.0);
+  const auto ms = [&](double part) { return 1000 * quantile(report.seconds, part); };
   std::printf("%d of %d errands done, %d of them within %d steps, the last at %d\n", report.done,
               arguments.tasks, report.done_by_the_end_of_arrivals, arguments.steps, report.last);
-  std::printf("from arrival to visit: %.1f steps on average\n",
-              static_cast<double>(report.waited) / std::max(1, report.done));
+  std::printf("from arrival to visit: %.1f steps on average, median %.0f, 95 %% %.0f\n",
+              sum / std::max(1, report.done), quantile(waits, 0.5), quantile(waits, 0.95));
   std::printf("%d decisions, %d without a plan in time; median %.1f ms, 95 %% %.1f, worst %.1f\n",
-              report.decisions, report.without_plan, at(0.5), at(0.95), at(1));
+              report.decisions, report.without_plan, ms(0.5), ms(0.95), ms(1));
 }
 
 grove::World read_grid(const std::string& map) {
