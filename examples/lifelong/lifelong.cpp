@@ -28,6 +28,8 @@ using Clock = std::chrono::steady_clock;
 constexpr double kOmega = 0.01;
 constexpr double kPatientSeconds = 60;
 constexpr int kTasksPerRobot = 10;  // that the session has at most, if robots share them
+constexpr int kMostWeight = 100;    // of --visit-weight
+constexpr int kMost = 1'000'000;    // of other options
 constexpr int kMoreSteps = 10'000;  // after the last arrival, before the loop stops waiting
 
 constexpr const char* kUsage =
@@ -45,7 +47,7 @@ Assigns errands to robots as they arrive, on a Moving AI map.
   --assign RULE   any: each errand is a task that any robot may do, and Grove chooses the robot
                   again at each decision; nearest: the errand is for the nearest robot without a
                   task (default: any)
-  --visit-weight N  with any: weight of early visits against few steps (default: 10)
+  --visit-weight N  with any: weight of early visits against few steps, 0 to 100 (default: 10)
 )";
 
 struct BadUsage : std::runtime_error {
@@ -70,12 +72,13 @@ double number(const std::string& option, const std::string& text, double least, 
   const double value = std::strtod(text.c_str(), &end);
   if (text.empty() || *end != '\0' || !(value >= least && value <= most))
     throw BadUsage(option + ": found '" + text + "'; expected a number from " +
-                   std::to_string(static_cast<int>(least)));
+                   std::to_string(static_cast<int>(least)) + " to " +
+                   std::to_string(static_cast<int>(most)));
   return value;
 }
 
-int integer(const std::string& option, const std::string& text, int least) {
-  const double value = number(option, text, least, std::numeric_limits<int>::max());
+int integer(const std::string& option, const std::string& text, int least, int most) {
+  const double value = number(option, text, least, most);
   if (value != static_cast<int>(value)) throw BadUsage(option + ": expected a whole number");
   return static_cast<int>(value);
 }
@@ -88,14 +91,19 @@ bool is_any(const std::string& rule) {
 
 Arguments parse_arguments(const std::vector<std::string>& words) {
   Arguments arguments;
-  const std::map<std::string, std::pair<int*, int>> integers{
+  struct Integer {
+    int* value;
+    int least;
+    int most = kMost;
+  };
+  const std::map<std::string, Integer> integers{
       {"--robots", {&arguments.robots, 1}},
       {"--tasks", {&arguments.tasks, 1}},
       {"--steps", {&arguments.steps, 1}},
       {"--every", {&arguments.every, 1}},
       {"--seed", {&arguments.seed, 0}},
       {"--turn-steps", {&arguments.turn_steps, 0}},
-      {"--visit-weight", {&arguments.visit_weight, 0}}};
+      {"--visit-weight", {&arguments.visit_weight, 0, kMostWeight}}};
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (!words[i].starts_with("--")) {
       if (!arguments.map.empty()) throw BadUsage("found two maps; expected one");
@@ -112,7 +120,7 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
     else if (found == integers.end())
       arguments.think_s = number(option, words[i], 0, 1e6);
     else
-      *found->second.first = integer(option, words[i], found->second.second);
+      *found->second.value = integer(option, words[i], found->second.least, found->second.most);
   }
   if (arguments.map.empty()) throw BadUsage("expected a MAP");
   return arguments;
@@ -139,6 +147,9 @@ grove::Instance idle_instance(const grove::World& world, const Arguments& argume
     if (arguments.turn_steps > 0) robot.start.heading = grove::Heading::north;
     robots.push_back(std::move(robot));
   }
+  if (std::ssize(robots) < arguments.robots)
+    throw BadUsage("--robots: found " + std::to_string(arguments.robots) + "; expected at most " +
+                   std::to_string(robots.size()) + ", the number of passable cells");
   return {world, std::move(robots), {}};
 }
 

@@ -5,6 +5,10 @@
 // first. Without a gain in the cost of the routes both are the same, and then only one search is
 // needed: agents do not exchange tasks without a gain.
 //
+// *Further assignments.* If the result is not within omega and there is time left, the search of
+// engine/choices.h follows, unless steps are committed or early visits have a weight. Its plan
+// replaces the first one only if it costs less.
+//
 // *Never worse.* If the old plan is valid, the plan with the second assignment must be better than
 // the old plan. Otherwise the first assignment is searched, which is that of the old plan, so this
 // search starts from the old plan and ends with a plan that costs at most as much. (A visit with
@@ -25,6 +29,7 @@
 #include "assignment/choice_bounds.h"
 #include "assignment/infeasible_choices.h"
 #include "engine/adaptations.h"
+#include "engine/choices.h"
 #include "engine/merged_observer.h"
 #include "engine/restriction.h"
 
@@ -36,7 +41,10 @@ namespace {
 constexpr double kShareForBound = 0.05;
 constexpr double kShareForAssignment = 0.2;
 constexpr double kShareForSearch = 0.5;
-constexpr std::int64_t kInsertions = 100'000;  // into a route, for the second assignment (5 ms)
+// The local search for the second assignment: insertions into a route in a round (5 ms), and rounds
+// without a gain after which it ends.
+constexpr std::int64_t kInsertions = 100'000;
+constexpr int kRoundsWithoutGain = 4;
 
 class AssignedRun {
  public:
@@ -45,12 +53,18 @@ class AssignedRun {
       : search_(search), options_(options), limits_(limits), merged_(merged) {}
 
   Solution run() {
+    Solution solution = search_two();
+    return needs_more(solution) ? with_further_assignments(solution) : solution;
+  }
+
+ private:
+  Solution search_two() {
     bound_ = lower_bound_of_choices(search_.instance, search_.distances, part(kShareForBound));
     AssignmentSearch assignments(search_.instance, search_.distances, options_.seed,
                                  options_.tuning.visit_weight);
     const auto first = assignments.first_from(search_.old, limits_);
     if (!first) return kept_plan(without_assignment());
-    const Assignment second = assignments.improved(kInsertions, part(kShareForAssignment));
+    const Assignment second = improved(assignments);
     const Assignment begun = begun_visits();
     const Assignment last = with_visits(*first, begun);
     const Assignment better = with_visits(second, begun);
@@ -62,7 +76,33 @@ class AssignedRun {
     return kept_plan(search_one(last, limits_));
   }
 
- private:
+  Assignment improved(AssignmentSearch& assignments) const {
+    const Limits limits = part(kShareForAssignment);
+    Assignment result;
+    for (int failures = 0; failures < kRoundsWithoutGain; ++failures) {
+      const Cost before = assignments.routes().cost();
+      result = assignments.improved(kInsertions, limits);
+      if (assignments.routes().cost() < before) failures = -1;
+      if (limits.stop_requested()) break;
+    }
+    return result;
+  }
+
+  bool needs_more(const Solution& solution) const {
+    if (limits_.stop_requested() || search_.commit > 0) return false;
+    if (!solution.plan) return solution.status == Status::kUnknown;
+    return options_.tuning.visit_weight == 0 &&
+           !options_.omega.accepts(solution.plan->cost, solution.lower_bound);
+  }
+
+  Solution with_further_assignments(const Solution& first) {
+    Stage stage(merged_);
+    Solution solution =
+        merged_result(first, solve_with_choices(search_.instance, options_, limits_, stage));
+    if (first.plan && solution.plan->cost == first.plan->cost) solution.plan = first.plan;
+    return solution;
+  }
+
   // Deterministic runs do not divide the time.
   Limits part(double share) const {
     const double seconds = limits_.seconds_left();

@@ -312,7 +312,7 @@ void require_choices_fit(const Instance& instance, const SolveOptions& options) 
   if (options.start) require_no_choices(instance, "a start plan does not support", "no start plan");
   if (!options.checkpoints.directory.empty() || options.resume)
     require_no_choices(instance, "checkpoints do not support", "no checkpoints");
-  if (options.proof) require_no_choices(instance, "proofs do not support");
+  if (options.proof) require_no_choices(instance, "proofs do not support", "no proof");
 }
 
 }  // namespace grove::detail

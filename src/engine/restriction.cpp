@@ -54,7 +54,7 @@ Solution solve_restriction(const Restriction& restriction, Omega omega, const Li
   const Cost own_bound = std::exchange(solution.lower_bound, restriction.bound);
   const auto cost = solution.plan ? std::optional(solution.plan->cost) : std::nullopt;
   solution.status = status_of(cost, solution.lower_bound, omega);
-  if (solution.status == Status::kFeasible && !was_stopped(solution))
+  if (solution.status == Status::kFeasible && omega.accepts(*cost, own_bound))
     solution.stats.texts["remark"] = fmt::format(
         "the cost is within omega of {}, the lower bound for {}, but not of the lower bound for "
         "all plans",

@@ -265,7 +265,8 @@ class Session::Impl {
     const Instance free = without_ends_of_plan(instance_, ends_with_plan_);
     const std::vector<bool> affected = either(affected_, ends_with_plan_);
     FirstSearch first(observer);
-    Solution solution = search(free, affected, options, limits, first, commit);
+    Solution solution =
+        search(free, affected, options, limits_of_first(options, limits), first, commit);
     if (!solution.plan || (plan_ && plan_->cost < solution.plan->cost)) {
       observer.on_note("no plan as good as the old one ends on remaining tasks");
       Solution other = search(instance_, affected_, options, limits, observer, commit);
@@ -280,6 +281,12 @@ class Session::Impl {
     affected_ = affected;
     ends_with_plan_.assign(ends_with_plan_.size(), false);
     return adopt(std::move(solution));
+  }
+
+  // With choices, the first search can use all of its time.
+  Limits limits_of_first(const SolveOptions& options, const Limits& limits) const {
+    const double seconds = limits.seconds_left();
+    return {limits, instance_.has_choices() && !options.deterministic ? seconds / 2 : seconds};
   }
 
   Solution search(const Instance& instance, const std::vector<bool>& affected,

@@ -131,8 +131,10 @@ class ChangeApplication {
     for (const Agent& agent : instance_.agents()) {
       if (instance_.world().place(agent.start) == blocked)
         throw InstanceError(field, fmt::format("'{}' is there", agent.id));
-      if (agent.goal == blocked || std::ranges::count(agent.goals, blocked) > 0)
+      if (agent.goal == blocked)
         throw InstanceError(field, fmt::format("it is the destination of '{}'", agent.id));
+      if (std::ranges::count(agent.goals, blocked) > 0)
+        throw InstanceError(field, fmt::format("it is one of the goals of '{}'", agent.id));
     }
     for (TaskIndex task = 0; task < instance_.task_count(); ++task)
       if (!dropped_[task] && instance_.task(task).cell == blocked)

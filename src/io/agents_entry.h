@@ -26,4 +26,10 @@ std::vector<std::string> agents_of_task(const JsonValue& task,
 // none, or if it has no agents. Throws InputError for other values.
 std::optional<int> need_of_task(const JsonValue& task, std::size_t agents);
 
+// Returns a hint, one line, if "agents" is "*" in a task without "need". This is valid, but most
+// users mean that any agent may visit the task. `tasks`: a list of tasks, or a single one.
+// `agents`: the number of agents of the instance. `file`: the name of the file.
+std::vector<std::string> hints_on_need(const JsonValue& tasks, std::size_t agents,
+                                       const std::string& file);
+
 }  // namespace grove::detail

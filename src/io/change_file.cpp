@@ -24,10 +24,13 @@ NewTask read_task(const JsonValue& json, const Instance& instance) {
 
 }  // namespace
 
-std::vector<ReadTask> read_new_tasks(const std::filesystem::path& path, const Instance& instance) {
+std::vector<ReadTask> read_new_tasks(const std::filesystem::path& path, const Instance& instance,
+                                     std::vector<std::string>* hints) {
   const JsonDocument document(path);
   const auto list = document.root().find("tasks");
   require_known_keys(document.root(), list ? new_tasks_keys() : task_keys());
+  if (hints)
+    *hints = hints_on_need(list ? *list : document.root(), instance.agents().size(), path.string());
   std::vector<ReadTask> tasks;
   if (!list) {
     tasks.push_back({read_task(document.root(), instance), ""});

@@ -179,26 +179,6 @@ StateMemory add_all(InstanceBuilder& builder, const JsonValue& root, const std::
   return memory;
 }
 
-// Returns a hint if "agents" is "*" in a task without "need". This is valid, but most users mean
-// that any agent may visit the task.
-std::vector<std::string> hints_on(const JsonValue& root, const std::string& file) {
-  const std::size_t agents = root.member("agents").size();
-  const JsonValue tasks = root.member("tasks");
-  std::size_t count = 0;
-  std::string first;
-  for (std::size_t i = 0; i < tasks.size() && agents > 1; ++i) {
-    const JsonValue task = tasks.element(i);
-    if (!is_for_all_agents(task) || task.find("need")) continue;
-    if (count++ == 0) first = task.path();
-  }
-  if (count == 0) return {};
-  return {
-      fmt::format("{}: {}: \"agents\": \"*\" without \"need\" means that all {} agents must "
-                  "visit the task{}; if any one of them may do so, add \"need\": 1",
-                  one_line(file), first, agents,
-                  count == 1 ? "" : fmt::format(" (the first of {} such tasks)", count))};
-}
-
 Instance read_robots(InstanceBuilder builder, const JsonValue& root, const std::string& file,
                      const InputRules& rules = {}) {
   const StateMemory memory = add_all(builder, root, file, rules);
@@ -356,7 +336,8 @@ LoadedInstance parse_instance(std::string_view text, const std::string& name,
   Map map =
       roadmap ? Map(read_roadmap(map_path, rules)) : Map(read_map(map_path, &warnings, rules));
   Instance instance = read_robots(InstanceBuilder(std::move(map)), root, name, rules);
-  return {std::move(instance), std::move(map_path), std::move(warnings), hints_on(root, name)};
+  return {std::move(instance), std::move(map_path), std::move(warnings),
+          hints_on_need(root.member("tasks"), root.member("agents").size(), name)};
 }
 
 Instance parse_instance_on(InstanceBuilder builder, std::string_view text,

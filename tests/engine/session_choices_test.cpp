@@ -169,7 +169,12 @@ TEST(SessionWithChoices, PlaceOfAChoiceOfGoalsCannotBeClosed) {
   Session session(testing::instance_with_goals());
   InstanceChange change;
   change.blocked.push_back(2);
-  EXPECT_THROW(session.change(change), InstanceError);
+  try {
+    session.change(change);
+    FAIL();
+  } catch (const InstanceError& error) {
+    EXPECT_STREQ(error.what(), "it is one of the goals of 'a0'");
+  }
 }
 
 // Both agents are 3 steps from the task. However often the session re-plans, the task stays with
@@ -282,6 +287,15 @@ void expect_proven(const Instance& instance, const Solution& solution) {
   }
 }
 
+// A remark on a bound "the cost is within omega of N, ..." is true. Omega is 0.
+void expect_true_remark(const Solution& solution) {
+  const auto remark = solution.stats.texts.find("remark");
+  if (remark == solution.stats.texts.end() || !solution.plan) return;
+  const std::string start = "the cost is within omega of ";
+  if (!remark->second.starts_with(start)) return;
+  EXPECT_EQ(std::stoll(remark->second.substr(start.size())), solution.plan->cost);
+}
+
 InstanceChange random_change(const Instance& instance, Random& random) {
   InstanceChange change = testing::random_change(instance, random);
   for (NewTask& task : change.new_tasks) {
@@ -304,6 +318,7 @@ void advance(Session& session, Time time, Random& random) {
 TEST(SessionFuzz, ReplansInstancesWithChoices) {
   int plans = 0;
   int committed = 0;
+  int optimal = 0;
   const int count = testing::fuzz_rounds(80);
   for (std::uint64_t seed = 1; static_cast<int>(seed) <= count; ++seed) {
     SCOPED_TRACE(seed);
@@ -325,6 +340,8 @@ TEST(SessionFuzz, ReplansInstancesWithChoices) {
         const Solution best =
             replanned(session, Omega(), commit, random.below(2) == 0 ? 0 : random.below(20));
         expect_proven(session.instance(), best);
+        expect_true_remark(best);
+        optimal += commit == 0 && best.status == Status::kOptimal;
         if (!changed) {
           ASSERT_TRUE(best.plan);  // the old plan remains possible
         }
@@ -344,6 +361,7 @@ TEST(SessionFuzz, ReplansInstancesWithChoices) {
   }
   EXPECT_GT(plans, count);
   EXPECT_GT(committed, count / 16);
+  EXPECT_GT(optimal, plans / 2);
 }
 
 TEST(SessionFuzz, ReplanningNeverRaisesTheCost) {

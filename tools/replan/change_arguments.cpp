@@ -55,10 +55,12 @@ RequestedChange::RequestedChange(const ChangeArguments& arguments, const Instanc
 }
 
 void RequestedChange::read_new_tasks(const std::string& file, const Instance& instance) {
-  for (ReadTask& read : grove::detail::read_new_tasks(file, instance)) {
+  std::vector<std::string> hints;
+  for (ReadTask& read : grove::detail::read_new_tasks(file, instance, &hints)) {
     change_.new_tasks.push_back(std::move(read.task));
     new_tasks_.push_back({file, read.place});
   }
+  hints_.insert(hints_.end(), hints.begin(), hints.end());
 }
 
 void RequestedChange::block(const std::string& text, const Instance& instance) {

@@ -31,6 +31,8 @@ class RequestedChange {
   RequestedChange(const ChangeArguments& arguments, const Instance& instance);
 
   const InstanceChange& change() const { return change_; }
+  // Hints on the files with new tasks, one line each.
+  const std::vector<std::string>& hints() const { return hints_; }
   // Rethrows `error`, which apply() threw, as an error in the option or file that requested the
   // refused part.
   [[noreturn]] void refuse(const InstanceError& error) const;
@@ -41,6 +43,7 @@ class RequestedChange {
   void block_on_roadmap(const std::string& text, const Roadmap& roadmap);
 
   InstanceChange change_;
+  std::vector<std::string> hints_;
   struct Source {
     std::string where;  // name of the file or option
     std::string what;   // place in the file, or value of the option

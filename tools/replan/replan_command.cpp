@@ -124,6 +124,7 @@ class Replanning {
 
   void change() {
     const RequestedChange asked(a_.change, session_.instance());
+    if (!a_.solve.quiet) print_hints(asked.hints());
     try {
       session_.change(asked.change());
     } catch (const InstanceError& error) {

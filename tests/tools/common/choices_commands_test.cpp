@@ -126,6 +126,13 @@ TEST_F(ChoicesCommands, ReplanAddsTasksWithANeed) {
                                   "--new-task", "new.json", "--quiet", "-o", "then.plan.json"});
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_EQ(run({"check", "then.cts.json", "then.plan.json"}).out.substr(0, 14), "valid: cost 4,");
+  directory_.write("all.json", R"({"id": "n", "cell": [3, 0], "agents": "*"})");
+  EXPECT_EQ(
+      run({"replan", "need.cts.json", "need.plan.json", "--at", "0", "--new-task", "all.json", "-o",
+           "all.plan.json"})
+          .err,
+      "grove: hint: all.json: \"agents\": \"*\" without \"need\" means that all 2 agents must "
+      "visit the task; if any one of them may do so, add \"need\": 1\n");
   directory_.write("bad.json", R"({"id": "n", "cell": [3, 0], "agents": ["a"], "need": 2})");
   EXPECT_EQ(
       refused({"replan", "need.cts.json", "need.plan.json", "--at", "0", "--new-task", "bad.json",
