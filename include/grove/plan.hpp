@@ -136,8 +136,9 @@ struct FixedChoices {
 /// destination keeps none if it rests on the place of one of these tasks, or has no task; otherwise
 /// its last place becomes its destination. The paths and the cost stay the same, except that an
 /// agent costs less if `plan` states a visit of it, to a task without duration, after it has come
-/// to rest. Throws InvalidArgument if the plan is not valid, and with field()
-/// "/tasks/<i>/agents/<k>" if an agent visits more than 64 tasks.
+/// to rest. Throws InvalidArgument if the plan is not valid, with field() "/agents" if the last
+/// place of such an agent is within a road, and with field() "/tasks/<i>/agents/<k>" if an agent
+/// visits more than 64 tasks.
 GROVE_API FixedChoices fix_choices(const Instance& instance, const Plan& plan);
 
 /// Reads a plan file for `instance`. Does not verify the plan or its claims; for that, use check().

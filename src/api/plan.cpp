@@ -230,6 +230,8 @@ FixedChoices fix_choices(const Instance& instance, const Plan& plan) {
   return with_public_exceptions([&] {
     const detail::Instance& inner = Access::instance(instance);
     detail::FixedChoices fixed = detail::fix_choices(inner, valid_plan_of(inner, plan, ""));
+    if (const auto error = detail::destination_within_a_road(fixed.instance))
+      throw InvalidArgument("/agents", *error);
     Plan same = public_plan(fixed.instance, fixed.plan);
     return FixedChoices{Access::to_public(std::move(fixed.instance)), std::move(same)};
   });

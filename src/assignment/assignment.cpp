@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "assignment/assignment.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <set>
@@ -130,6 +132,17 @@ FixedChoices fix_choices(const Instance& instance, const Plan& plan) {
   Instance result = with_ends_of_plan(fixed, plan, ends_elsewhere);
   Plan same = without_other_visits(result, plan);
   return {std::move(result), std::move(same)};
+}
+
+std::optional<std::string> destination_within_a_road(const Instance& fixed) {
+  const Roadmap* roadmap = fixed.roadmap();
+  for (const Agent& agent : fixed.agents())
+    if (roadmap && agent.goal && roadmap->spot(*agent.goal).vertex < 0)
+      return fmt::format(
+          "agent '{}' visits a task by choice and then rests within a road; expected that it rests "
+          "on a vertex",
+          agent.id);
+  return std::nullopt;
 }
 
 bool forbids_rest_within_turns(const Instance& instance) {

@@ -5,6 +5,7 @@
 
 #include <compare>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "model/instance.h"
@@ -55,6 +56,10 @@ struct FixedChoices {
 // holds for the result, unless forbids_rest_within_turns(). Precondition: `plan` is a valid plan of
 // `instance`. Throws InstanceError like with_assignment().
 FixedChoices fix_choices(const Instance& instance, const Plan& plan);
+
+// The text of an error if the destination of an agent in `fixed` is a place within a road, which
+// files and the public interface cannot express; nullopt otherwise.
+std::optional<std::string> destination_within_a_road(const Instance& fixed);
 
 // True if an agent may not rest within a turn only because it has optional tasks. When the choices
 // are fixed it may, so a plan can then cost less than every plan of `instance`.

@@ -202,7 +202,8 @@ class AssignmentSearch::Builder {
       if (const auto task = task_at_start(instance_, i)) --missing[*task];
     for (AgentIndex i = 0; i < instance_.agent_count(); ++i)
       for (const TaskIndex task : plan.agents[i].sequence) {
-        if (routes_.visits(i, task) || missing[task] <= 0) continue;
+        const bool is_full = routes_.stops(i).size() >= kMaxTasksPerAgent;
+        if (is_full || routes_.visits(i, task) || missing[task] <= 0) continue;
         routes_.insert(i, task, routes_.stops(i).size());
         --missing[task];
         if (!instance_.task(task).needs_all()) insertion.count_visit(task);

@@ -9,11 +9,9 @@
 // engine/choices.h follows, unless steps are committed or early visits have a weight. Its plan
 // replaces the first one only if it costs less.
 //
-// *Never worse.* If the old plan is valid, the plan with the second assignment must be better than
-// the old plan. Otherwise the first assignment is searched, which is that of the old plan, so this
-// search starts from the old plan and ends with a plan that costs at most as much. (A visit with
-// which the old plan exceeds the need of a task is left out. The agent is then planned again, and
-// the old plan is the result if this gives no better one.)
+// *Never worse.* If the old plan is valid, it is the result unless a search finds a better one. The
+// first assignment is in most cases that of the old plan, so its search starts from the old plan.
+// (Visits beyond the need of a task are left out, and routes that end on one place are changed.)
 //
 // *Committed steps.* Visits that the old plan makes or begins within the committed steps are part
 // of both assignments, so no other agent makes them a second time.
@@ -22,6 +20,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "assignment/assignment.h"
@@ -53,7 +52,12 @@ class AssignedRun {
       : search_(search), options_(options), limits_(limits), merged_(merged) {}
 
   Solution run() {
-    Solution solution = search_two();
+    Solution solution;
+    try {
+      solution = search_two();
+    } catch (const InstanceError& error) {  // too many committed visits of an agent
+      solution = kept_plan(without_assignment(error.what()));
+    }
     return needs_more(solution) ? with_further_assignments(solution) : solution;
   }
 
@@ -63,7 +67,9 @@ class AssignedRun {
     AssignmentSearch assignments(search_.instance, search_.distances, options_.seed,
                                  options_.tuning.visit_weight);
     const auto first = assignments.first_from(search_.old, limits_);
-    if (!first) return kept_plan(without_assignment());
+    if (!first)
+      return kept_plan(
+          without_assignment("the insertion heuristic found no assignment; one may exist"));
     const Assignment second = improved(assignments);
     const Assignment begun = begun_visits();
     const Assignment last = with_visits(*first, begun);
@@ -109,13 +115,13 @@ class AssignedRun {
     return {limits_, options_.deterministic ? seconds : share * seconds};
   }
 
-  Solution without_assignment() const {
+  Solution without_assignment(const std::string& remark) const {
     Solution solution;
     if (limits_.stop_requested()) {
       solution = stopped_solution(options_, limits_);
     } else {
       solution.omega = options_.omega;
-      solution.stats.texts["remark"] = "the insertion heuristic found no assignment; one may exist";
+      solution.stats.texts["remark"] = remark;
     }
     solution.lower_bound = bound_;
     return solution;
@@ -177,20 +183,14 @@ class AssignedRun {
     return solution;
   }
 
-  Cost objective(const Plan& plan) const {
-    Cost visits = 0;
-    for (const AgentPlan& agent : plan.agents)
-      for (const WorkTime& work : agent.work) visits += work.end;
-    return plan.cost + options_.tuning.visit_weight * visits;
-  }
+  Cost value_of(const Plan& plan) const { return objective(plan, options_); }
   bool is_better_than_old(const Solution& solution) const {
-    return solution.plan &&
-           (!search_.is_valid || objective(*solution.plan) < objective(search_.old));
+    return solution.plan && (!search_.is_valid || value_of(*solution.plan) < value_of(search_.old));
   }
   // The solution, with the old plan if it is valid and better.
   Solution kept_plan(Solution solution) const {
     if (!search_.is_valid || is_better_than_old(solution)) return solution;
-    if (solution.plan && objective(*solution.plan) == objective(search_.old)) return solution;
+    if (solution.plan && value_of(*solution.plan) == value_of(search_.old)) return solution;
     solution.plan = search_.old;
     solution.status = status_of(search_.old.cost, bound_, options_.omega);
     return solution;
@@ -204,6 +204,13 @@ class AssignedRun {
 };
 
 }  // namespace
+
+Cost objective(const Plan& plan, const SolveOptions& options) {
+  Cost visits = 0;
+  for (const AgentPlan& agent : plan.agents)
+    for (const WorkTime& work : agent.work) visits += work.end;
+  return plan.cost + options.tuning.visit_weight * visits;
+}
 
 Solution search_assigned(const AssignedSearch& search, const SolveOptions& options,
                          const Limits& limits, RunObserver& observer) {

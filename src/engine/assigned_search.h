@@ -31,10 +31,13 @@ struct AssignedSearch {
   SearchFixed search;
 };
 
+// The objective of assignments: the cost, plus `options.tuning.visit_weight` times the sum of the
+// times of the stated visits.
+Cost objective(const Plan& plan, const SolveOptions& options);
+
 // Searches two assignments and then, if necessary, others (head of assigned_search.cpp). If the old
-// plan is valid, the result is never worse by the objective of assignments: the cost, plus
-// `options.tuning.visit_weight` times the sum of the times of the stated visits. The lower bound
-// holds for all assignments. Throws what `search` throws.
+// plan is valid, the result is never worse by objective(). The lower bound holds for all
+// assignments. Throws what `search` throws.
 Solution search_assigned(const AssignedSearch& search, const SolveOptions& options,
                          const Limits& limits, RunObserver& observer);
 

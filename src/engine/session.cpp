@@ -154,6 +154,12 @@ std::optional<Plan> start_from(const Plan& plan, const std::vector<bool>& affect
   return repaired(problem, stops, paths, options.seed, limits);
 }
 
+Solution with_plan(Solution solution, const Plan& plan) {
+  solution.plan = plan;
+  solution.status = status_of(plan.cost, solution.lower_bound, solution.omega);
+  return solution;
+}
+
 // Observer of the first of possibly two searches. Forwards its end only when end() is called.
 class FirstSearch : public ForwardingObserver {
  public:
@@ -267,7 +273,10 @@ class Session::Impl {
     FirstSearch first(observer);
     Solution solution =
         search(free, affected, options, limits_of_first(options, limits), first, commit);
-    if (!solution.plan || (plan_ && plan_->cost < solution.plan->cost)) {
+    const auto value = [&](const Plan& plan) {
+      return instance_.has_choices() ? objective(plan, options) : plan.cost;
+    };
+    if (!solution.plan || (plan_ && value(*plan_) < value(*solution.plan))) {
       observer.on_note("no plan as good as the old one ends on remaining tasks");
       Solution other = search(instance_, affected_, options, limits, observer, commit);
       if (other.plan) {
@@ -316,14 +325,18 @@ class Session::Impl {
                                const SolveOptions& options, const Limits& limits,
                                RunObserver& observer, Time commit) {
     distances_ = std::make_unique<DistanceFields>(instance, limits, options.threads, known());
-    if (!distances_->complete()) return stopped_solution(options, limits);
+    const bool is_valid = plan_ && !any(affected);
+    if (!distances_->complete()) {
+      Solution stopped = stopped_solution(options, limits);
+      return is_valid ? with_plan(std::move(stopped), *plan_) : stopped;
+    }
     const Plan old = old_ ? *old_ : standing_plan(instance);
     const AssignedSearch assigned{
         .instance = instance,
         .distances = *distances_,
         .old = old,
         .affected = affected,
-        .is_valid = plan_ && !any(affected),
+        .is_valid = is_valid,
         .commit = old_ ? commit : 0,
         .search = [&](const Instance& fixed, const Plan& start, const std::vector<bool>& changed,
                       const Limits& part, RunObserver& stage) {

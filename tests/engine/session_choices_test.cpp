@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "assignment/assignment.h"
+#include "engine/assigned_search.h"
 #include "engine/method.h"
 #include "engine/session.h"
 #include "execution/advance.h"
@@ -213,6 +214,63 @@ TEST(SessionWithChoices, CommittedVisitsStay) {
   EXPECT_EQ(solution.plan->agents[0].path, plan.agents[0].path);
   EXPECT_EQ(visitors(session, "t0"), Ids{"left"});
   EXPECT_FALSE(solution.stats.counts.contains("lower_bound_committed"));
+}
+
+TEST(SessionWithChoices, LimitKeepsTheOldPlan) {
+  Session session(corridor({{2, 0}, {5, 0}}));
+  const Cost cost = replanned(session).plan->cost;
+  const Limits limits;
+  limits.stop(StopReason::kTime);
+  const Solution solution = session.solve(SolveOptions(), limits, nullptr, 0);
+  ASSERT_TRUE(solution.plan);
+  EXPECT_EQ(solution.plan->cost, cost);
+}
+
+// In the old plan `a` visits t2, t3 and t4 on its way, and rests on t0, which it has visited. A
+// plan that ends on t1 costs less but visits t2, t3 and t4 later.
+TEST(SessionWithChoices, VisitWeightAppliesToEndsOfTheOldPlan) {
+  InstanceBuilder builder(testing::grid_of({".............."}));
+  builder.add_agent("a", Place{3}, std::nullopt);
+  builder.add_agent("b", Place{13}, std::nullopt);
+  builder.add_task("t0", Place{3}, Ids{"a"});
+  builder.add_task("t1", Place{2}, Ids{"a"});
+  for (const char* id : {"t2", "t3", "t4"}) builder.add_task(id, Place{6}, Ids{"a", "b"}, 0, 1);
+  const Instance instance = std::move(builder).build();
+  const Plan plan{
+      8,
+      {{8, {0, 2, 3, 4, 1}, {3, 4, 5, 6, 5, 4, 3, 2, 3}, {{2, 3, 3}, {3, 3, 3}, {4, 3, 3}}},
+       {0, {}, {13}, {}}}};
+  ASSERT_EQ(first_violation(instance, plan), "");
+  Session session(instance, plan);
+  session.advance(0);
+  const Solution solution = replanned(session, {}, 0, 10);
+  ASSERT_TRUE(solution.plan);
+  SolveOptions options;
+  options.tuning.visit_weight = 10;
+  EXPECT_LE(objective(*solution.plan, options), 8 + 10 * 9);
+}
+
+// The old plan makes more visits with one agent than an instance without choices can require.
+TEST(SessionWithChoices, PlansWithVeryManyVisits) {
+  constexpr Place kLength = 72;
+  InstanceBuilder builder(testing::grid_of({std::string(kLength + 1, '.')}));
+  builder.add_agent("a", Place{0}, std::nullopt);
+  builder.add_agent("b", Place{kLength}, std::nullopt);
+  Plan plan{kLength - 1, {{kLength - 1, {}, {0}, {}}, {0, {}, {kLength}, {}}}};
+  for (Place place = 1; place < kLength; ++place) {
+    builder.add_task("t" + std::to_string(place), place, Ids{"a", "b"}, 0, 1);
+    plan.agents[0].sequence.push_back(place - 1);
+    plan.agents[0].path.push_back(place);
+    plan.agents[0].work.push_back({place - 1, place, place});
+  }
+  const Instance instance = std::move(builder).build();
+  ASSERT_EQ(first_violation(instance, plan), "");
+  for (const Time commit : {0, 68}) {
+    Session session(instance, plan);
+    const Solution solution = replanned(session, {}, commit);
+    ASSERT_TRUE(solution.plan);
+    EXPECT_LE(solution.plan->cost, plan.cost);
+  }
 }
 
 TEST(SessionWithChoices, BetterAssignmentReplacesTheOldOne) {

@@ -52,6 +52,8 @@ void convert_choices(const ConvertArguments& arguments, InstanceFormat from, Ins
   Solution solution = read_valid_plan(arguments.fix_choices, loaded.instance);
   write_representable(arguments, loaded.instance, from, [&] {
     FixedChoices fixed = fix_choices(loaded.instance, *solution.plan);
+    if (const auto error = destination_within_a_road(fixed.instance))
+      throw InputError(arguments.fix_choices, "/agents", *error);
     write_converted(arguments, loaded, fixed.instance, to);
     solution = of_fixed(loaded.instance, std::move(solution), std::move(fixed.plan));
     write_solution(plan_file, fixed.instance, solution);

@@ -119,6 +119,8 @@ class Replanning {
       session_.advance(static_cast<Time>(a_.at), late);
     } catch (const InfeasibleDelay& error) {
       throw CLI::ValidationError("--late", one_line(error.what()));
+    } catch (const InstanceError& error) {  // delays with choices: too many visits of an agent
+      throw CLI::ValidationError("--late", one_line(error.what()));
     }
   }
 

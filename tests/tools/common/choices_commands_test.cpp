@@ -240,6 +240,22 @@ TEST_F(ChoicesCommands, FixingChoicesRefusesWrongPlans) {
   EXPECT_EQ(files().size(), before);
 }
 
+TEST_F(ChoicesCommands, FixingChoicesRefusesRestsWithinRoads) {
+  directory_.write("r.roadmap.json", R"({"vertices": [{"id": "v", "at": [0, 0]},
+      {"id": "w", "at": [3, 0]}], "edges": [{"from": "v", "to": "w", "steps": 3}]})");
+  directory_.write("r.cts.json", R"({"roadmap": "r.roadmap.json", "agents": [
+      {"id": "a", "start": "v"}, {"id": "b", "start": "w"}],
+      "tasks": [{"id": "t", "cell": "v", "agents": "*", "need": 1}]})");
+  directory_.write("r.plan.json", R"({"status": "feasible", "cost": 1, "lower_bound": 0, "omega": 0,
+      "agents": [{"id": "a", "sequence": ["t"], "cost": 1,
+      "work": [{"task": "t", "begin": 0, "end": 0}], "path": [["v"], ["v", "w", 1]]},
+      {"id": "b", "sequence": [], "cost": 0, "path": [["w"]]}]})");
+  EXPECT_EQ(refused({"convert", "r.cts.json", "x.cts.json", "--fix-choices", "r.plan.json"}),
+            "r.plan.json: /agents: agent 'a' visits a task by choice and then rests within a road; "
+            "expected that it rests on a vertex");
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "x.cts.json"));
+}
+
 TEST_F(ChoicesCommands, CertificatesAreRefused) {
   directory_.write("p.proof", "grove-proof 1\n");
   EXPECT_EQ(
