@@ -13,12 +13,12 @@
 #include "engine/method.h"
 #include "engine/session.h"
 #include "execution/advance.h"
-#include "model/check.h"
 #include "tests/engine/random_change.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/joint_oracle.h"
 #include "tests/support/choices.h"
 #include "tests/support/clocks.h"
+#include "tests/support/first_violation.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 #include "tests/support/random_choices.h"
@@ -26,6 +26,7 @@
 namespace grove::detail {
 namespace session_choices_test {
 
+using testing::first_violation;
 using Ids = std::vector<std::string>;
 
 constexpr std::int64_t kLimitChecks = 10'000;  // limit on clock readings per solve
@@ -36,14 +37,6 @@ Solution replanned(Session& session, Omega omega = {}, Time commit = 0, std::int
   options.omega = omega;
   options.tuning.visit_weight = weight;
   return session.solve(options, testing::ClockReadingLimit(kLimitChecks), nullptr, commit);
-}
-
-std::string first_violation(const Instance& instance, const Plan& plan) {
-  Solution solution;
-  solution.plan = plan;
-  solution.status = status_of(plan.cost, 0, solution.omega);
-  const auto wrong = check(instance, solution, 1);
-  return wrong.empty() ? "" : wrong.front().json_pointer + ": " + wrong.front().message;
 }
 
 // A corridor with two agents without a destination at its ends, and tasks t0, t1, ... that need one

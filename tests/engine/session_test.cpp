@@ -14,6 +14,7 @@
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/joint_oracle.h"
 #include "tests/support/clocks.h"
+#include "tests/support/first_violation.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
@@ -21,6 +22,7 @@ namespace grove::detail {
 namespace session_test {
 
 using testing::AgentSpec;
+using testing::first_violation;
 using testing::instance_of;
 
 constexpr std::int64_t kLimitChecks = 10'000;  // limit on clock readings per solve
@@ -34,18 +36,6 @@ SolveOptions with_omega(Omega omega) {
 Solution solved(Session& session, Omega omega, Time commit = 0) {
   return session.solve(with_omega(omega), testing::ClockReadingLimit(kLimitChecks), nullptr,
                        commit);
-}
-
-std::string first_violation(const Instance& instance, const Solution& solution) {
-  const auto wrong = check(instance, solution, 1);
-  return wrong.empty() ? "" : wrong.front().json_pointer + ": " + wrong.front().message;
-}
-
-std::string first_violation(const Instance& instance, const Plan& plan) {
-  Solution solution;
-  solution.plan = plan;
-  solution.status = status_of(plan.cost, 0, solution.omega);
-  return first_violation(instance, solution);
 }
 
 Session session_of(const Instance& instance) {

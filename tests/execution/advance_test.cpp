@@ -7,24 +7,17 @@
 #include <chrono>
 
 #include "engine/solve.h"
-#include "model/check.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/clocks.h"
+#include "tests/support/first_violation.h"
 #include "tests/support/instances.h"
 
 namespace grove::detail {
 namespace advance_test {
 
 using testing::AgentSpec;
+using testing::first_violation;
 using testing::instance_of;
-
-std::string first_violation(const Instance& instance, const Plan& plan) {
-  Solution solution;
-  solution.plan = plan;
-  solution.status = status_of(plan.cost, 0, solution.omega);
-  const auto wrong = check(instance, solution, 1);
-  return wrong.empty() ? "" : wrong.front().json_pointer + ": " + wrong.front().message;
-}
 
 TEST(Advance, RemovesVisitedTasks) {
   const Instance instance =

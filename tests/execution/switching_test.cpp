@@ -7,12 +7,12 @@
 #include <chrono>
 
 #include "engine/solve.h"
-#include "model/check.h"
 #include "model/random.h"
 #include "tests/execution/collisions.h"
 #include "tests/execution/delays.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/clocks.h"
+#include "tests/support/first_violation.h"
 #include "tests/support/instances.h"
 
 namespace grove::detail {
@@ -21,6 +21,7 @@ namespace switching_test {
 using testing::AgentSpec;
 using testing::collision;
 using testing::Delays;
+using testing::first_violation;
 using testing::instance_of;
 
 std::optional<Plan> plan_of(const Instance& instance) {
@@ -49,14 +50,6 @@ Instance dense_instance(std::uint64_t seed) {
     }
   }
   return std::move(builder).build();
-}
-
-std::string first_violation(const Instance& instance, const Plan& plan) {
-  Solution solution;
-  solution.plan = plan;
-  solution.status = status_of(plan.cost, 0, solution.omega);
-  const auto wrong = check(instance, solution, 1);
-  return wrong.empty() ? "" : wrong.front().json_pointer + ": " + wrong.front().message;
 }
 
 Cost cost_of(const ActionDependencyGraph& order, const ExecutionTrace& trace) {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "crowd.h"
-#include "first_violation.h"
 #include "prices.h"
 #include "search/feasibility.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/clocks.h"
+#include "tests/support/first_violation.h"
 #include "tests/support/instances.h"
 #include "tests/support/sanitizers.h"
 

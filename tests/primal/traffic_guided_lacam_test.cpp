@@ -7,11 +7,11 @@
 #include <string>
 
 #include "crowd.h"
-#include "first_violation.h"
 #include "primal/lacam_with_restarts.h"
 #include "primal/visit_orders.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/clocks.h"
+#include "tests/support/first_violation.h"
 #include "tests/support/instances.h"
 #include "tests/support/sanitizers.h"
 
