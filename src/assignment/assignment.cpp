@@ -21,30 +21,20 @@ bool has_task(const Instance& instance, const Assignment& assignment, AgentIndex
          std::ranges::binary_search(assignment[agent].visits, task);
 }
 
-// The time of the first visit to `task`. Precondition: the agent visits the task.
-Time time_of_visit(const Instance& instance, const AgentPlan& plan, TaskIndex task) {
-  const auto work = std::ranges::find(plan.work, task, &WorkTime::task);
-  if (work != plan.work.end()) return work->end;
-  const auto visit = std::ranges::find_if(plan.path, [&](State state) {
-    return instance.world().place(state) == instance.task(task).cell;
-  });
-  return static_cast<Time>(visit - plan.path.begin());
-}
-
 // If the agent visits a task with a choice of agents, its sequence is then in the order of first
 // visits. (An agent with stated visits need not end on the last task of its sequence.)
 void state_visits(const Instance& instance, AgentPlan& plan) {
   std::vector<WorkTime> stated;
   for (const TaskIndex task : plan.sequence)
     if (instance.task(task).duration == 0 && instance.task(task).has_stated_visits()) {
-      const Time time = time_of_visit(instance, plan, task);
+      const Time time = visit_time(instance, plan, task);
       stated.push_back({task, time, time});
     }
   if (stated.empty()) return;
   plan.work.insert(plan.work.end(), stated.begin(), stated.end());
   std::ranges::stable_sort(plan.work, {}, &WorkTime::begin);
   std::ranges::stable_sort(plan.sequence, {},
-                           [&](TaskIndex task) { return time_of_visit(instance, plan, task); });
+                           [&](TaskIndex task) { return visit_time(instance, plan, task); });
   GROVE_ASSERT(plan.work.empty() || plan.work.back().end <= plan.cost,
                "an agent finishes after its last visit");
 }

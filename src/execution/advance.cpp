@@ -22,14 +22,6 @@ Time finish(const AgentPlan& plan) {
   return last;
 }
 
-// The time at which the plan visits a task. Precondition: the plan visits it.
-Time visit_time(const Instance& instance, const AgentPlan& plan, TaskIndex index) {
-  const Task& task = instance.task(index);
-  if (task.has_stated_visits()) return std::ranges::find(plan.work, index, &WorkTime::task)->end;
-  const auto is_there = [&](State s) { return instance.world().place(s) == task.cell; };
-  return static_cast<Time>(std::ranges::find_if(plan.path, is_there) - plan.path.begin());
-}
-
 // Computes the remainder of one agent after `time` steps.
 class AgentLater {
  public:

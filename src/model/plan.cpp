@@ -135,6 +135,15 @@ Path walked_path(const Instance& instance, AgentIndex agent, const AgentPlan& gi
   return path;
 }
 
+Time visit_time(const Instance& instance, const AgentPlan& plan, TaskIndex task) {
+  const auto work = std::ranges::find(plan.work, task, &WorkTime::task);
+  if (work != plan.work.end()) return work->end;
+  const auto visit = std::ranges::find_if(plan.path, [&](State state) {
+    return instance.world().place(state) == instance.task(task).cell;
+  });
+  return static_cast<Time>(visit - plan.path.begin());
+}
+
 void end_on_the_place_of_rest(const Instance& instance, AgentIndex agent, AgentPlan& plan) {
   const auto is_stated = [&](TaskIndex task) { return instance.task(task).has_stated_visits(); };
   if (!instance.rests_on_last_stop(agent) || std::ranges::any_of(plan.sequence, is_stated)) return;

@@ -66,6 +66,10 @@ AgentPlan plan_of_path(const Instance& instance, AgentIndex agent, const Path& p
 // turn or is the agent's start. Precondition: `plan` is valid.
 Path walked_path(const Instance& instance, AgentIndex agent, const AgentPlan& plan);
 
+// The time at which `plan` states the end of the visit to `task`; without a statement, the first
+// time on its place. Precondition: the agent visits the task.
+Time visit_time(const Instance& instance, const AgentPlan& plan, TaskIndex task);
+
 // If the agent rests on the last stop of its sequence, moves the tasks on its last place to the end
 // of the sequence. They may be earlier in the sequence if the path visits that place several times.
 // Changes nothing if the plan states visits, because these have their times.
