@@ -31,6 +31,7 @@
 #include "engine/choices.h"
 #include "engine/merged_observer.h"
 #include "engine/restriction.h"
+#include "engine/single_assignment.h"
 
 namespace grove::detail {
 namespace {
@@ -56,7 +57,7 @@ class AssignedRun {
     try {
       solution = search_two();
     } catch (const InstanceError& error) {  // too many committed visits of an agent
-      solution = kept_plan(without_assignment(error.what()));
+      solution = kept_plan(without_assignment(options_, limits_, bound_, error.what()));
     }
     return needs_more(solution) ? with_further_assignments(solution) : solution;
   }
@@ -67,9 +68,7 @@ class AssignedRun {
     AssignmentSearch assignments(search_.instance, search_.distances, options_.seed,
                                  options_.tuning.visit_weight);
     const auto first = assignments.first_from(search_.old, limits_);
-    if (!first)
-      return kept_plan(
-          without_assignment("the insertion heuristic found no assignment; one may exist"));
+    if (!first) return kept_plan(without_assignment(options_, limits_, bound_));
     const Assignment second = improved(assignments);
     const Assignment begun = begun_visits();
     const Assignment last = with_visits(*first, begun);
@@ -105,27 +104,12 @@ class AssignedRun {
     Stage stage(merged_);
     Solution solution =
         merged_result(first, solve_with_choices(search_.instance, options_, limits_, stage));
-    if (first.plan && solution.plan->cost == first.plan->cost) solution.plan = first.plan;
+    if (first.plan && solution.plan && solution.plan->cost == first.plan->cost)
+      solution.plan = first.plan;
     return solution;
   }
 
-  // Deterministic runs do not divide the time.
-  Limits part(double share) const {
-    const double seconds = limits_.seconds_left();
-    return {limits_, options_.deterministic ? seconds : share * seconds};
-  }
-
-  Solution without_assignment(const std::string& remark) const {
-    Solution solution;
-    if (limits_.stop_requested()) {
-      solution = stopped_solution(options_, limits_);
-    } else {
-      solution.omega = options_.omega;
-      solution.stats.texts["remark"] = remark;
-    }
-    solution.lower_bound = bound_;
-    return solution;
-  }
+  Limits part(double share) const { return part_of(limits_, options_, share); }
 
   // The visits to tasks with a choice that the old plan makes or begins in the committed steps.
   Assignment begun_visits() const {
@@ -164,12 +148,7 @@ class AssignedRun {
   }
 
   Solution search_one(const Assignment& assignment, const Limits& limits) {
-    const Restriction restriction{
-        .instance = with_assignment(search_.instance, assignment),
-        .to_whole = [&](const Plan& plan) { return with_stated_visits(search_.instance, plan); },
-        .bound = bound_,
-        .plans = "plans with the chosen assignment",
-        .has_no_plan = "the chosen assignment has no plan; other assignments may have one"};
+    const Restriction restriction = restriction_to(search_.instance, assignment, bound_);
     const Instance& fixed = restriction.instance;
     std::vector<bool> changed = search_.affected;
     for (AgentIndex i = 0; i < fixed.agent_count(); ++i)
@@ -191,9 +170,8 @@ class AssignedRun {
   Solution kept_plan(Solution solution) const {
     if (!search_.is_valid || is_better_than_old(solution)) return solution;
     if (solution.plan && value_of(*solution.plan) == value_of(search_.old)) return solution;
-    solution.plan = search_.old;
-    solution.status = status_of(search_.old.cost, bound_, options_.omega);
-    return solution;
+    if (solution.plan) solution.stats.texts.erase("remark");  // it is about that plan
+    return with_plan(std::move(solution), search_.old);
   }
 
   const AssignedSearch& search_;
@@ -214,14 +192,8 @@ Cost objective(const Plan& plan, const SolveOptions& options) {
 
 Solution search_assigned(const AssignedSearch& search, const SolveOptions& options,
                          const Limits& limits, RunObserver& observer) {
-  if (const auto reason = infeasible_choices(search.instance, search.distances)) {
-    observer.on_infeasible(*reason);
-    Solution solution;
-    solution.status = Status::kInfeasible;
-    solution.omega = options.omega;
-    solution.stats.texts["reason"] = *reason;
-    return solution;
-  }
+  if (const auto reason = infeasible_choices(search.instance, search.distances))
+    return infeasible_solution(options, *reason, observer);
   MergedObserver merged(observer);
   Solution solution = AssignedRun(search, options, limits, merged).run();
   merged.end();

@@ -24,6 +24,7 @@
 #include "engine/checkpoint.h"
 #include "engine/merged_observer.h"
 #include "engine/restriction.h"
+#include "engine/single_assignment.h"
 #include "model/choices.h"
 #include "planning/problem.h"
 
@@ -43,43 +44,6 @@ constexpr std::int64_t kAllEffort = 2'000'000;  // per further assignment
 constexpr Cost kMarginOffset = 100;  // after a failure the margin is at most half of this + bound
 constexpr int kFailuresWithoutAssignment = 20;  // that count if no assignment is found
 constexpr int kMaxFailures = 200;  // assignments in succession that lead to no cheaper plan
-
-Solution infeasible(const SolveOptions& options, const std::string& reason, RunObserver& observer) {
-  observer.on_infeasible(reason);
-  Solution solution;
-  solution.status = Status::kInfeasible;
-  solution.omega = options.omega;
-  solution.stats.texts["reason"] = reason;
-  return solution;
-}
-
-Solution without_assignment(const SolveOptions& options, const Limits& limits, Cost bound) {
-  Solution solution;
-  if (limits.stop_requested()) {
-    solution = stopped_solution(options, limits);
-  } else {
-    solution.omega = options.omega;
-    solution.stats.texts["remark"] = "the insertion heuristic found no assignment; one may exist";
-  }
-  solution.lower_bound = bound;
-  return solution;
-}
-
-Restriction restriction(const Instance& instance, const Assignment& assignment, Cost bound,
-                        Cost cutoff) {
-  return {.instance = with_assignment(instance, assignment),
-          .to_whole = [&](const Plan& plan) { return with_stated_visits(instance, plan); },
-          .bound = bound,
-          .cutoff = cutoff,
-          .plans = "plans with the chosen assignment",
-          .has_no_plan = "the chosen assignment has no plan; other assignments may have one"};
-}
-
-// The limits of one search. Deterministic runs do not divide the time.
-Limits part_of(const Limits& limits, const SolveOptions& options, double share) {
-  const double seconds = limits.seconds_left();
-  return {limits, options.deterministic ? seconds : share * seconds};
-}
 
 bool is_within(const Solution& solution, Omega omega) {
   return solution.plan && omega.accepts(solution.plan->cost, solution.lower_bound);
@@ -126,7 +90,7 @@ class ChoicesRun {
   Solution solve_one(const Assignment& assignment, double share) {
     ++searched_;
     const Limits part = part_of(limits_, options_, share);
-    return solve_restriction(restriction(instance_, assignment, bound_, cost()), options_, part,
+    return solve_restriction(restriction_to(instance_, assignment, bound_, cost()), options_, part,
                              merged_);
   }
 
@@ -274,7 +238,7 @@ Solution assign_and_solve(const Instance& instance, const SolveOptions& options,
   const DistanceFields distances(instance, limits, options.threads);
   if (!distances.complete()) return stopped_solution(options, limits);
   if (const auto reason = infeasible_choices(instance, distances))
-    return infeasible(options, *reason, observer);
+    return infeasible_solution(options, *reason, observer);
   Cost bound = lower_bound_of_choices(instance, distances, limits);
   AssignmentSearch assignments(instance, distances, options.seed);
   const auto first = assignments.first(limits);

@@ -24,6 +24,7 @@
 #include "engine/assigned_search.h"
 #include "engine/restriction.h"
 #include "engine/run_observer.h"
+#include "engine/single_assignment.h"
 #include "execution/advance.h"
 #include "model/assert.h"
 #include "model/check.h"
@@ -152,12 +153,6 @@ std::optional<Plan> start_from(const Plan& plan, const std::vector<bool>& affect
     if (!affected[agent]) paths[agent] = walked_path(problem.instance, agent, plan.agents[agent]);
   AgentStopsCache stops(problem.instance, problem.distances);
   return repaired(problem, stops, paths, options.seed, limits);
-}
-
-Solution with_plan(Solution solution, const Plan& plan) {
-  solution.plan = plan;
-  solution.status = status_of(plan.cost, solution.lower_bound, solution.omega);
-  return solution;
 }
 
 // Observer of the first of possibly two searches. Forwards its end only when end() is called.
@@ -292,10 +287,9 @@ class Session::Impl {
     return adopt(std::move(solution));
   }
 
-  // With choices, the first search can use all of its time.
+  // With choices, the first search often uses all of its time; half is left for the second one.
   Limits limits_of_first(const SolveOptions& options, const Limits& limits) const {
-    const double seconds = limits.seconds_left();
-    return {limits, instance_.has_choices() && !options.deterministic ? seconds / 2 : seconds};
+    return part_of(limits, options, instance_.has_choices() ? 0.5 : 1);
   }
 
   Solution search(const Instance& instance, const std::vector<bool>& affected,

@@ -59,8 +59,8 @@ class Session {
   //
   // If the instance has choices, the agents keep no task of the old plan: the search chooses an
   // assignment again, starting from that of the old plan (engine/assigned_search.h). The result is
-  // never worse than a still valid old plan. lower_bound then holds for all assignments, and
-  // counts["lower_bound_committed"] is not set.
+  // never worse by objective() than a still valid old plan. lower_bound then holds for all
+  // assignments, and counts["lower_bound_committed"] is not set.
   //
   // The independent checker has verified every plan, including those passed to `observer`. Throws
   // what solve() throws, InvalidPlan, and NotCommitted.

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Parts of the searches that solve an instance with choices by one assignment after the other.
+#pragma once
+
+#include <string>
+
+#include "assignment/assignment.h"
+#include "engine/restriction.h"
+#include "engine/run_observer.h"
+#include "engine/solve.h"
+#include "model/limits.h"
+
+namespace grove::detail {
+
+// The limits of a search that may use `share` of the time that is left. Deterministic runs do not
+// divide the time.
+Limits part_of(const Limits& limits, const SolveOptions& options, double share);
+
+// The restriction of `instance`, which must outlive it, to an assignment. `bound`, `cutoff`: see
+// Restriction. Throws InstanceError like with_assignment().
+Restriction restriction_to(const Instance& instance, const Assignment& assignment, Cost bound,
+                           Cost cutoff = kInfiniteCost);
+
+// Reports to `observer` that there is no plan, and returns this result.
+Solution infeasible_solution(const SolveOptions& options, const std::string& reason,
+                             RunObserver& observer);
+
+inline constexpr const char* kNoAssignmentFound =
+    "the insertion heuristic found no assignment; one may exist";
+// The result if there is no assignment to search. If no limit is the reason, `remark` states it.
+Solution without_assignment(const SolveOptions& options, const Limits& limits, Cost bound,
+                            const std::string& remark = kNoAssignmentFound);
+
+// The solution with another plan, and the status of this plan.
+Solution with_plan(Solution solution, const Plan& plan);
+
+}  // namespace grove::detail
