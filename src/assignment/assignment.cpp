@@ -26,7 +26,8 @@ bool has_task(const Instance& instance, const Assignment& assignment, AgentIndex
 void state_visits(const Instance& instance, AgentPlan& plan) {
   std::vector<WorkTime> stated;
   for (const TaskIndex task : plan.sequence)
-    if (instance.task(task).duration == 0 && instance.task(task).has_stated_visits()) {
+    if (instance.task(task).has_stated_visits() &&
+        std::ranges::count(plan.work, task, &WorkTime::task) == 0) {
       const Time time = visit_time(instance, plan, task);
       stated.push_back({task, time, time});
     }

@@ -35,8 +35,9 @@ bool is_complete(const Instance& instance, const Assignment& assignment);
 Instance with_assignment(const Instance& instance, const Assignment& assignment);
 
 // Converts a plan of with_assignment(instance, ...) to a plan of `instance`: states the visits of
-// tasks that need only some of their agents, each as early as possible, and completes a turn within
-// which an agent with such tasks rests. Precondition: the plan is valid.
+// tasks that need only some of their agents, each as early as possible if the plan does not state
+// it, and completes a turn within which an agent with such tasks rests. Precondition: the plan is
+// valid.
 Plan with_stated_visits(const Instance& instance, Plan plan);
 
 // The choices that a plan of `instance` makes: the optional tasks of which it states visits, and

@@ -9,16 +9,22 @@
 // the sum of the prices of its paths, plus m_g for the goals for which no agent pays, minus the sum
 // of all m_t (|C_t| - n_t) and m_g.* *Proof.* Add the payments.
 //
+// *Stops.* The tasks of an agent on one place that take no time have one stop, and the agent counts
+// all of them or none. If an agent of C_t has another task at the stop of t, then m_t = 0. (Tasks
+// that take time have their own stops.) An agent is at the stop of t before it begins a task that
+// takes time on the same place, unless it starts at work there; this case is refused.
+//
 // If fewer than n_t agents are left in C_t, or an agent with a choice of goals has none left, there
 // is no plan below the cutoff.
 //
 // An agent without a destination that must visit a task rests on a task that it has visited. If it
 // rests on an optional task that it does not count, this visit is stated as well; it is a surplus
-// visit, and the agent has paid the price of leaving it out.
+// visit, and the agent has paid the price of leaving it out. If the task takes time, the agent must
+// have counted it (AgentPrices::rest_requires). This excludes no plan: at most one agent rests on
+// the place, so its visit can be one of the n_t that are counted.
 #include "assignment/priced_instance.h"
 
 #include <algorithm>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -30,6 +36,28 @@ namespace grove::detail {
 namespace {
 
 constexpr Time kMaxPrice = 1 << 20;
+
+// The tasks that an agent with prices visits at its stop.
+std::vector<TaskIndex> tasks_at(const Instance& priced, AgentIndex index, int stop) {
+  const Agent& agent = priced.agent(index);
+  const TaskIndex of_stop = agent.stops[stop];
+  std::vector<TaskIndex> tasks{of_stop};
+  if (priced.task(of_stop).duration > 0) return tasks;
+  for (const TaskIndex task : agent.tasks)
+    if (task != of_stop && priced.task(task).cell == priced.task(of_stop).cell &&
+        priced.task(task).duration == 0)
+      tasks.push_back(task);
+  return tasks;
+}
+
+int stop_of(const Instance& priced, AgentIndex index, TaskIndex task) {
+  const std::vector<TaskIndex>& stops = priced.agent(index).stops;
+  const auto visits = [&](TaskIndex stop) {
+    return stop == task || (priced.task(task).duration == 0 && priced.task(stop).duration == 0 &&
+                            priced.task(stop).cell == priced.task(task).cell);
+  };
+  return static_cast<int>(std::ranges::find_if(stops, visits) - stops.begin());
+}
 
 class Reformulation {
  public:
@@ -47,6 +75,7 @@ class Reformulation {
       if (!spec.goals.empty()) spec.goals = choices_[agent].goals;
       if (instance_.agent(agent).goals.size() > 0 && spec.goals.empty()) return Pricing::kNoPlan;
       builder.add_agent(std::move(spec));
+      if (instance_.agent(agent).has_choice()) builder.may_leave_out_stops(agent);
     }
     for (TaskIndex task = 0; task < instance_.task_count(); ++task) {
       const Task& of = instance_.task(task);
@@ -68,20 +97,19 @@ class Reformulation {
 
   bool has_room(AgentIndex index) const {
     const Agent& agent = instance_.agent(index);
-    const std::vector<TaskIndex>& visits = choices_[index].visits;
     if (!agent.has_choice()) return true;
-    if (agent.tasks.size() + visits.size() > kMaxTasksPerAgent) return false;
-    std::set<Place> places;
-    bool takes_time = false;
-    for (const TaskIndex task : agent.tasks) {
-      places.insert(instance_.task(task).cell);
-      takes_time |= instance_.task(task).duration > 0;
-    }
-    for (const TaskIndex task : visits) {
-      if (!places.insert(instance_.task(task).cell).second) return false;
-      takes_time |= instance_.task(task).duration > 0;
-    }
-    return agent.has_destination() || agent.tasks.empty() || visits.empty() || !takes_time;
+    std::vector<TaskIndex> tasks = choices_[index].visits;
+    tasks.insert(tasks.end(), agent.tasks.begin(), agent.tasks.end());
+    return tasks.size() <= kMaxTasksPerAgent && !is_at_work_on_another(index, tasks);
+  }
+
+  // A task without a duration on the start is visited at time 0, although the agent is at work.
+  bool is_at_work_on_another(AgentIndex index, const std::vector<TaskIndex>& tasks) const {
+    const auto begun = task_at_start(instance_, index);
+    return begun && std::ranges::any_of(tasks, [&](TaskIndex task) {
+             return instance_.task(task).duration == 0 &&
+                    instance_.task(task).cell == instance_.task(*begun).cell;
+           });
   }
 
   // No agent can end on the destination of an agent without a choice.
@@ -102,15 +130,12 @@ class Reformulation {
       const int need = instance_.task(task).need;
       const auto surplus = static_cast<Cost>(of.agents.size()) - need;
       if (surplus == 0) continue;
-      const Time multiplier = price_of(task);
+      const Time multiplier = price_of(priced.instance, task);
       Prices::Need& made = prices.needs.emplace_back();
       made.count = need;
       made.is_exact = multiplier > 0;
-      for (const AgentIndex agent : of.agents) {
-        const std::vector<TaskIndex>& stops = priced.instance.agent(agent).stops;
-        made.visits.push_back(
-            {agent, static_cast<int>(std::ranges::find(stops, task) - stops.begin())});
-      }
+      for (const AgentIndex agent : of.agents)
+        made.visits.push_back({agent, stop_of(priced.instance, agent, task)});
       prices.constant += multiplier * surplus;
     }
     for (const auto& [place, price] : multipliers_.on_goals)
@@ -120,8 +145,24 @@ class Reformulation {
       }
   }
 
-  // At most kMaxPrice, so that sums are far below kNever. Any multiplier is valid.
-  Time price_of(TaskIndex task) const { return std::min(multipliers_.on_visits[task], kMaxPrice); }
+  // 0 if the task shares a stop. At most kMaxPrice, so that sums are far below kNever.
+  Time price_of(const Instance& priced, TaskIndex task) const {
+    const bool shares_stop = std::ranges::any_of(priced.task(task).agents, [&](AgentIndex agent) {
+      return tasks_at(priced, agent, stop_of(priced, agent, task)).size() > 1;
+    });
+    return shares_stop ? 0 : std::min(multipliers_.on_visits[task], kMaxPrice);
+  }
+
+  // The price of leaving out a stop: kNever if the agent must visit one of its tasks.
+  Time price_of_skip(const Instance& priced, AgentIndex agent, int stop) const {
+    Time price = 0;
+    for (const TaskIndex task : tasks_at(priced, agent, stop)) {
+      const Task& of = priced.task(task);
+      if (static_cast<int>(of.agents.size()) == instance_.task(task).need) return kNever;
+      price += price_of(priced, task);
+    }
+    return price;
+  }
 
   bool is_choice(Place goal) const {
     return std::ranges::any_of(choices_, [&](const RouteBound::Choices& choices) {
@@ -134,11 +175,10 @@ class Reformulation {
     if (!agent.has_choice()) return std::nullopt;
     AgentPrices prices;
     prices.rests_anywhere = agent.is_idle();
-    for (const TaskIndex task : priced.agent(index).stops) {
-      const bool is_optional =
-          static_cast<int>(priced.task(task).agents.size()) > instance_.task(task).need;
-      prices.skip.push_back(is_optional ? price_of(task) : kNever);
-    }
+    if (!agent.has_destination() && !agent.is_idle())
+      prices.rest_requires = rest_requires(priced, index);
+    for (int stop = 0; stop < std::ssize(priced.agent(index).stops); ++stop)
+      prices.skip.push_back(price_of_skip(priced, index, stop));
     for (const Place goal : choices_[index].goals) {
       const auto known =
           std::ranges::find(multipliers_.on_goals, goal, &std::pair<Place, Time>::first);
@@ -147,28 +187,54 @@ class Reformulation {
     return prices;
   }
 
+  // The stops on places where all tasks of the agent take time and are optional.
+  StopSet rest_requires(const Instance& priced, AgentIndex index) const {
+    const Agent& agent = priced.agent(index);
+    const auto always_permits_rest = [&](TaskIndex task) {
+      return priced.task(task).duration == 0 || instance_.task(task).needs_all();
+    };
+    StopSet required = 0;
+    for (std::size_t stop = 0; stop < agent.stops.size(); ++stop) {
+      const Place place = priced.task(agent.stops[stop]).cell;
+      if (std::ranges::none_of(agent.tasks, [&](TaskIndex task) {
+            return priced.task(task).cell == place && always_permits_rest(task);
+          }))
+        required |= bit(static_cast<int>(stop));
+    }
+    return required;
+  }
+
   const Instance& instance_;
   std::vector<RouteBound::Choices> choices_;
   const RouteBound::Multipliers multipliers_;
 };
 
-// An agent without a destination that must visit tasks rests on the last task of its sequence.
-// Moves the task to the end, and if it is optional, also its stated visit.
-void end_on_last_task(const Instance& instance, const PricedInstance& priced, AgentIndex index,
-                      AgentPlan& plan) {
-  if (instance.agent(index).tasks.empty() || !priced.instance.rests_on_last_stop(index)) return;
+// An agent without a destination that must visit tasks rests on a task that it has visited. If none
+// of its tasks takes time, this is the last task of its sequence.
+void end_on_a_task(const Instance& instance, const PricedInstance& priced, AgentIndex index,
+                   AgentPlan& plan) {
+  const Agent& agent = instance.agent(index);
+  if (agent.has_destination() || agent.is_idle()) return;
   const Place place = instance.world().place(plan.path.back());
-  const std::vector<TaskIndex>& tasks = priced.instance.agent(index).tasks;
   const auto is_here = [&](TaskIndex task) { return instance.task(task).cell == place; };
-  const auto last = std::ranges::find_if(tasks, is_here);
-  GROVE_CHECK(last != tasks.end(), "an agent rests on one of its tasks");
-  std::erase_if(plan.work, [&](const WorkTime& work) { return is_here(work.task); });
-  std::erase_if(plan.sequence, is_here);
-  for (const TaskIndex task : tasks) {
-    if (!is_here(task)) continue;
+  if (priced.instance.rests_on_last_stop(index)) {
+    std::erase_if(plan.work, [&](const WorkTime& work) { return is_here(work.task); });
+    std::erase_if(plan.sequence, is_here);
+  } else if (std::ranges::any_of(plan.sequence, is_here)) {
+    return end_on_the_place_of_rest(instance, index, plan);
+  }
+  for (const TaskIndex task : priced.instance.agent(index).tasks) {
+    if (!is_here(task) || instance.task(task).duration > 0) continue;
     plan.sequence.push_back(task);
     if (instance.task(task).has_stated_visits()) plan.work.push_back({task, plan.cost, plan.cost});
   }
+  GROVE_CHECK(std::ranges::any_of(plan.sequence, is_here), "an agent rests on one of its tasks");
+}
+
+std::vector<TaskIndex> tasks_at(const PricedInstance& priced, AgentIndex agent, int stop) {
+  if (priced.prices.agents[agent]) return tasks_at(priced.instance, agent, stop);
+  const auto position = static_cast<std::uint8_t>(stop);
+  return priced.instance.tasks_in_order(agent, {&position, 1});
 }
 
 AgentPlan agent_plan_of(const Instance& instance, const PricedInstance& priced, AgentIndex agent,
@@ -177,14 +243,13 @@ AgentPlan agent_plan_of(const Instance& instance, const PricedInstance& priced, 
   for (const State state : counted.path) plan.path.push_back(priced.instance.world().base(state));
   plan.cost = static_cast<Time>(plan.path.size()) - 1;
   for (const auto& [time, stop] : counted.counted) {
-    const auto position = static_cast<std::uint8_t>(stop);
-    for (const TaskIndex task : priced.instance.tasks_in_order(agent, {&position, 1})) {
+    for (const TaskIndex task : tasks_at(priced, agent, stop)) {
       plan.sequence.push_back(task);
       const Task& of = instance.task(task);
       if (of.has_stated_visits()) plan.work.push_back({task, time - of.duration, time});
     }
   }
-  end_on_last_task(instance, priced, agent, plan);
+  end_on_a_task(instance, priced, agent, plan);
   return plan;
 }
 
@@ -194,8 +259,7 @@ bool can_price_choices(const Instance& instance) {
   for (AgentIndex index = 0; index < instance.agent_count(); ++index) {
     if (!instance.agent(index).has_choice()) continue;
     const auto begun = task_at_start(instance, index);
-    if (instance.agent(index).kind > 0 || (begun && !instance.task(*begun).needs_all()))
-      return false;
+    if (begun && !instance.task(*begun).needs_all()) return false;
   }
   return true;
 }

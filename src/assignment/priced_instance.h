@@ -25,8 +25,8 @@ struct PricedInstance {
   Prices prices;
 };
 
-// Returns false if no choices of the instance can be priced, because an agent with a choice needs
-// time to turn, or starts while it executes an optional task.
+// Returns false if no choices of the instance can be priced, because an agent starts while it
+// executes an optional task.
 bool can_price_choices(const Instance& instance);
 
 // The result of price_choices().
@@ -38,9 +38,8 @@ enum class Pricing : std::uint8_t {
 
 // Makes the reformulation for plans that cost less than `cutoff`. The lower the cutoff, the fewer
 // choices are left. kNotPossible: can_price_choices() is false; or an agent with a choice would
-// have more than kMaxTasksPerAgent tasks, or several tasks on one place; or it has no destination
-// and must visit a task, and one of its tasks, also of the optional ones, takes time; or `bound`
-// has no result; or a limit is reached.
+// have more than kMaxTasksPerAgent tasks; or it starts at work and has a task without a duration on
+// its start; or `bound` has no result; or a limit is reached.
 Pricing price_choices(const Instance& instance, RouteBound& bound, Cost cutoff,
                       const Limits& limits, std::optional<PricedInstance>& priced);
 

@@ -146,7 +146,8 @@ bool PathGraph::may_continue(State state, StageId stage, Time arrival) const {
   for_each_stop(s.next, [&](int stop) {
     has_task |= stops.takes_time(stop) && stops.place(stop) == world_.place(state);
   });
-  return has_task;
+  return has_task || (s.price < kNever && goals_.price_of_rest(s, state) >= kNever &&
+                      stops.may_turn_to_rest(state));
 }
 
 // Adds a node, final if `price` is not kNever, and makes it a successor of the current one.

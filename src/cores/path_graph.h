@@ -3,6 +3,7 @@
 // excess.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -34,7 +35,7 @@ class PathGraph {
     kStopped,   // a limit was reached
   };
 
-  // `least_cost`: the agent's least cost. `stops` must outlive this object.
+  // `least_cost`: the agent's least cost, or a lower bound. `stops` must outlive this object.
   PathGraph(AgentStops& stops, Time least_cost);
 
   // Adds all nodes with excess <= `excess`, and visits at most `max_visits` nodes. After kGrowing,
@@ -45,6 +46,10 @@ class PathGraph {
   Time grown() const { return grown_; }
 
   Time least_cost() const { return least_cost_; }
+  // Is there a walk of the least cost? Precondition: the graph has grown.
+  bool has_least_cost() const {
+    return std::ranges::any_of(starts_, [&](Node start) { return nodes_[start].excess == 0; });
+  }
   // Number of nodes. Some of them may have an excess above the greatest value for which the graph
   // was grown, or kNever.
   Node count() const { return static_cast<Node>(nodes_.size()); }

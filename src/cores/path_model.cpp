@@ -70,10 +70,14 @@ PathModel::PathModel(const Problem& problem, const AgentStopsCache& stops, Techn
 PathModel::Outcome PathModel::plan_next_agent() {
   const auto index = static_cast<AgentIndex>(agents_.size());
   AgentStops& stops = stops_.of(index);
-  const std::optional<Time> least = least_cost(stops);
+  std::optional<Time> least = least_cost(stops);
   if (!least) return limits_.stop_requested() ? Outcome::kStopped : Outcome::kTooLarge;
-  Agent agent{.graph = std::make_unique<PathGraph>(stops, *least)};
-  if (const Outcome grown = grow(*agent.graph, 0, kMaxNodes); grown != Outcome::kDone) return grown;
+  Agent agent;
+  for (; !agent.graph || !agent.graph->has_least_cost(); ++*least) {
+    agent.graph = std::make_unique<PathGraph>(stops, *least);
+    const Outcome grown = grow(*agent.graph, 0, kMaxNodes);
+    if (grown != Outcome::kDone) return grown;
+  }
   agent.walk = walk_with_fewest_conflicts(*agent.graph);
   least_sum_ += agent.graph->least_cost();
   paths_[index] = path_of(agent);
@@ -82,7 +86,8 @@ PathModel::Outcome PathModel::plan_next_agent() {
   return Outcome::kDone;
 }
 
-// The least cost of a path, or its least price; nullopt: there is no path, or it is not known.
+// The least cost of a path, or a lower bound on its price; nullopt: there is no path, or it is not
+// known.
 std::optional<Time> PathModel::least_cost(AgentStops& stops) {
   work_ += effort::kUnitsPerCall;
   SequenceStages goals(stops, SequenceClass{});
@@ -94,7 +99,7 @@ std::optional<Time> PathModel::least_cost(AgentStops& stops) {
     if (outcome != PathOutcome::kFound) return std::nullopt;
     return static_cast<Time>(path.size()) - 1;
   }
-  for (;;) {  // the distance is exact for all prices below the outside bound
+  for (;;) {  // the distance is a lower bound if it is below the outside bound
     const auto first = goals.first_stage();
     const Time outside_bound = goals.cost_to_go().outside_bound();
     const Time price =

@@ -16,6 +16,7 @@
 #include "assignment/assignment.h"
 #include "assignment/assignment_search.h"
 #include "assignment/choice_bounds.h"
+#include "assignment/implied_tasks.h"
 #include "assignment/infeasible_choices.h"
 #include "assignment/priced_instance.h"
 #include "assignment/route_bound.h"
@@ -25,6 +26,7 @@
 #include "engine/merged_observer.h"
 #include "engine/restriction.h"
 #include "engine/single_assignment.h"
+#include "model/check.h"
 #include "model/choices.h"
 #include "planning/problem.h"
 
@@ -254,10 +256,8 @@ Solution assign_and_solve(const Instance& instance, const SolveOptions& options,
       .run(assignments, *first, route_bound, bound, spent.count());
 }
 
-}  // namespace
-
-Solution solve_with_choices(const Instance& instance, const SolveOptions& options,
-                            const Limits& limits, RunObserver& observer) {
+Solution solve_choices(const Instance& instance, const SolveOptions& options, const Limits& limits,
+                       RunObserver& observer) {
   MergedObserver merged(observer);
   Solution solution;
   try {
@@ -267,6 +267,33 @@ Solution solve_with_choices(const Instance& instance, const SolveOptions& option
     solution = stopped_solution(options, limits);
   }
   merged.end();
+  return solution;
+}
+
+// Converts the plans of the search without implied tasks.
+class WholePlans : public ForwardingObserver {
+ public:
+  WholePlans(RunObserver& next, const WithoutImpliedTasks& reduced)
+      : ForwardingObserver(next), reduced_(reduced) {}
+  void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override {
+    next().on_incumbent(reduced_.to_whole(plan), source, progress);
+  }
+
+ private:
+  const WithoutImpliedTasks& reduced_;
+};
+
+}  // namespace
+
+Solution solve_with_choices(const Instance& instance, const SolveOptions& options,
+                            const Limits& limits, RunObserver& observer) {
+  const auto reduced = WithoutImpliedTasks::make(instance);
+  if (!reduced) return solve_choices(instance, options, limits, observer);
+  WholePlans whole_plans(observer, *reduced);
+  Solution solution = reduced->instance().has_choices()
+                          ? solve_choices(reduced->instance(), options, limits, whole_plans)
+                          : solve(reduced->instance(), options, limits, &whole_plans);
+  if (solution.plan) solution.plan = checked_plan(instance, reduced->to_whole(*solution.plan));
   return solution;
 }
 

@@ -278,7 +278,7 @@ TaskIndex InstanceBuilder::add_task(std::string id, Place place,
 Instance InstanceBuilder::build() && {
   if (instance_.agents_.empty()) throw InstanceError("agents", "expected at least one agent");
   for (AgentIndex i = 0; i < instance_.agent_count(); ++i) {
-    choose_stops(instance_.agents_[i]);
+    choose_stops(i);
     if (specs_[i].working) require_work(i, *specs_[i].working);
   }
   make_world();
@@ -287,16 +287,20 @@ Instance InstanceBuilder::build() && {
   return std::move(instance_);
 }
 
-void InstanceBuilder::choose_stops(Agent& agent) const {
+void InstanceBuilder::choose_stops(AgentIndex index) {
+  Agent& agent = instance_.agents_[index];
+  const bool leaves_out_stops = leaves_out_stops_.contains(index);
   const auto takes_time = [&](TaskIndex t) { return instance_.task(t).duration > 0; };
   for (const TaskIndex task : agent.tasks) {
     const auto is_here = [&](TaskIndex t) {
       return instance_.task(t).cell == instance_.task(task).cell;
     };
-    const auto first_here = std::ranges::find_if(agent.tasks, is_here);
+    const auto first_without_time = std::ranges::find_if(
+        agent.tasks, [&](TaskIndex t) { return is_here(t) && !takes_time(t); });
     const bool work_here =
         std::ranges::any_of(agent.tasks, [&](TaskIndex t) { return is_here(t) && takes_time(t); });
-    if (takes_time(task) || (!work_here && *first_here == task)) agent.stops.push_back(task);
+    if (takes_time(task) || ((!work_here || leaves_out_stops) && *first_without_time == task))
+      agent.stops.push_back(task);
   }
   GROVE_ASSERT(std::ranges::all_of(agent.tasks,
                                    [&](TaskIndex t) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -36,7 +37,8 @@ struct Agent {
   std::vector<TaskIndex> options = {};  // further tasks that it may visit
   // The tasks that the search must order, a subsequence of `tasks`. Of the agent's tasks on one
   // place, the stops are those that take time or, if none does, one of them. When an agent
-  // visits its stops on a place, it also visits its other tasks there.
+  // visits its stops on a place, it also visits its other tasks there. (Exception:
+  // InstanceBuilder::may_leave_out_stops().)
   std::vector<TaskIndex> stops = {};
 
   bool has_destination() const { return goal || !goals.empty(); }
@@ -217,6 +219,10 @@ class InstanceBuilder {
   TaskIndex add_task(std::string id, Place place, std::span<const std::string> agent_ids,
                      Time duration = 0, std::optional<int> need = {});
 
+  // For a search in which the agent may leave out stops: one of its tasks without a duration on
+  // each place is a stop, also if others there take time.
+  void may_leave_out_stops(AgentIndex agent) { leaves_out_stops_.insert(agent); }
+
   // The maximum duration of a task or a quarter turn, in steps.
   static constexpr Time kMaxDuration = 1 << 16;
 
@@ -230,7 +236,7 @@ class InstanceBuilder {
   Cell passable_cell(const std::string& field, Position p) const;
   std::string name(Place place) const;
   void require_choice_of_goals(const AgentSpec& spec) const;
-  void choose_stops(Agent& agent) const;
+  void choose_stops(AgentIndex agent);
   void require_work(AgentIndex agent, const WorkBegun& begun) const;
   void make_world();
   std::vector<MotionWorld::Job> jobs() const;
@@ -238,6 +244,7 @@ class InstanceBuilder {
   Instance instance_;
   std::vector<AgentSpec> specs_;  // by AgentIndex
   std::vector<Motion> motions_;   // distinct motions with turn_steps > 0
+  std::set<AgentIndex> leaves_out_stops_;
   std::unordered_map<std::string, AgentIndex> agent_by_id_;
   std::unordered_map<std::string, TaskIndex> task_by_id_;
   std::unordered_map<Place, AgentIndex> agent_by_start_;

@@ -10,6 +10,7 @@
 #include "model/instance.h"
 #include "model/omega.h"
 #include "model/plan.h"
+#include "sequencing/sequence.h"
 
 namespace grove::detail {
 
@@ -22,7 +23,9 @@ struct AgentPrices {
   };
   std::vector<Time> skip;       // by stop: for leaving it out; kNever: it must visit it
   std::vector<Goal> goals;      // where it may end; empty: as the instance says
-  bool rests_anywhere = false;  // it may end on any place
+  bool rests_anywhere = false;  // it may end on any place, but not within a turn
+  // On a place of these stops it may end only if it has counted one of them that is there.
+  StopSet rest_requires = 0;
 };
 
 // Prices for an instance in which agents may leave out stops. The stops that agents count must

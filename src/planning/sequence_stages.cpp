@@ -80,13 +80,16 @@ bool is_executing(const World& world, State state) {
 }
 
 // By state: the least sum of the distance to a goal and its price.
-DistanceField prices_to_goals(const World& world, std::span<const AgentPrices::Goal> goals) {
+DistanceField prices_to_goals(const Instance& instance, AgentIndex agent,
+                              std::span<const AgentPrices::Goal> goals) {
+  const World& world = instance.world();
   std::vector<std::vector<State>> by_price(1);
   DistanceField prices(static_cast<std::size_t>(world.state_count()), kNever);
   for (const AgentPrices::Goal& goal : goals) {
     by_price.resize(std::max<std::size_t>(by_price.size(), goal.price + 1));
     world.for_each_state(goal.place, [&](State state) {
-      if (!is_executing(world, state)) by_price[goal.price].push_back(state);
+      if (!is_executing(world, state) && instance.may_rest(agent, state))
+        by_price[goal.price].push_back(state);
     });
   }
   for (std::size_t price = 0; price < by_price.size(); ++price)
@@ -98,6 +101,21 @@ DistanceField prices_to_goals(const World& world, std::span<const AgentPrices::G
       for (const State before : world.moves_to(state)) by_price[price + 1].push_back(before);
     }
   return prices;
+}
+
+bool is_within_turn(const Instance& instance, State state) {
+  return instance.pose_of(state).steps > 0;
+}
+
+// By state: the distance to a state that is not within a turn.
+DistanceField distances_to_any_rest(const Instance& instance, AgentIndex agent) {
+  const World& world = instance.world();
+  std::vector<State> states;
+  for (State state = 0; state < world.state_count(); ++state)
+    if (world.kind(world.base(state)) == instance.agent(agent).kind &&
+        !is_executing(world, state) && !is_within_turn(instance, state))
+      states.push_back(state);
+  return distance_field(world, states);
 }
 
 // Returns the set of the stops of a prefix.
@@ -137,6 +155,16 @@ PortDistances::PortDistances(const Instance& instance, const DistanceFields& dis
 }
 
 AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent)
+    : AgentStops(
+          instance, distances, agent,
+          CostToGo(port_matrix(instance, agent, distances),
+                   distances.array(ArrayKind::kSequenceTable, static_cast<std::size_t>(agent)),
+                   [&instance, &distances, agent] {
+                     return direct_legs(instance, agent, port_matrix(instance, agent, distances));
+                   })) {}
+
+AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent,
+                       CostToGo cost_to_go)
     : instance_(&instance),
       world_(&instance.world()),
       agent_(agent),
@@ -144,11 +172,7 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
       turn_steps_(instance.agent(agent).motion.turn_steps),
       start_(instance.agent(agent).start),
       destination_(instance.agent(agent).goal),
-      cost_to_go_(port_matrix(instance, agent, distances),
-                  distances.array(ArrayKind::kSequenceTable, static_cast<std::size_t>(agent)),
-                  [&instance, &distances, agent] {
-                    return direct_legs(instance, agent, port_matrix(instance, agent, distances));
-                  }),
+      cost_to_go_(std::move(cost_to_go)),
       ports_(instance, distances, agent, cost_to_go_.matrix().ports) {
   const Agent& who = instance.agent(agent);
   for (std::size_t stop = 0; stop < who.stops.size(); ++stop) {
@@ -165,15 +189,16 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
 
 AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent,
                        AgentPrices prices)
-    : AgentStops(instance, distances, agent) {
-  GROVE_CHECK(kind_ == 0 && std::ssize(prices.skip) == count(),
-              "an agent with prices turns freely, and each of its stops has a price");
+    : AgentStops(instance, distances, agent,
+                 CostToGo::with_prices(cost_matrix(instance, agent, distances), prices.skip)) {
+  GROVE_CHECK(std::ssize(prices.skip) == count(), "each stop has a price");
   for (int stop = 0; stop < count(); ++stop)
     if (prices.skip[stop] > 0 && prices.skip[stop] < kNever) optional_ |= bit(stop);
   if (prices.rests_anywhere)
-    prices_to_rest_ = std::make_shared<const DistanceField>(world_->state_count(), 0);
+    prices_to_rest_ = std::make_shared<const DistanceField>(distances_to_any_rest(instance, agent));
   else if (!prices.goals.empty())
-    prices_to_rest_ = std::make_shared<const DistanceField>(prices_to_goals(*world_, prices.goals));
+    prices_to_rest_ =
+        std::make_shared<const DistanceField>(prices_to_goals(instance, agent, prices.goals));
   if (prices_to_rest_) to_rest_ = DistanceView(*prices_to_rest_);
   CostMatrix matrix = cost_to_go_.matrix();
   for (int stop = 0; stop < count() && to_rest_; ++stop)
@@ -182,12 +207,31 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
   prices_ = std::make_shared<const AgentPrices>(std::move(prices));
 }
 
-Time AgentStops::price_of_rest(State state) const {
+Time AgentStops::price_of_rest(State state, StopSet left) const {
   if (is_executing(*world_, state)) return kNever;
-  if (!prices_ || prices_->goals.empty()) return to_rest_[state] == 0 ? 0 : kNever;
-  const auto goal =
-      std::ranges::find(prices_->goals, world_->place(state), &AgentPrices::Goal::place);
-  return goal != prices_->goals.end() ? goal->price : kNever;
+  const Place here = world_->place(state);
+  if (!prices_ || prices_->goals.empty())
+    return to_rest_[state] == 0 && !lacks_visit_to_rest(here, left) ? 0 : kNever;
+  const auto goal = std::ranges::find(prices_->goals, here, &AgentPrices::Goal::place);
+  const bool may_rest = goal != prices_->goals.end() && instance_->may_rest(agent_, state);
+  return may_rest ? goal->price : kNever;
+}
+
+bool AgentStops::lacks_visit_to_rest(Place place, StopSet left) const {
+  if (!prices_ || prices_->rest_requires == 0) return false;
+  StopSet required = 0;
+  for_each_stop(prices_->rest_requires, [&](int stop) {
+    if (places_[stop] == place) required |= bit(stop);
+  });
+  return required != 0 && (required & ~left) == 0;
+}
+
+bool AgentStops::may_turn_to_rest(State state) const {
+  if (kind_ == 0 || rests_on_last_stop()) return false;
+  bool is_possible = false;
+  world_->for_each_state(world_->place(state),
+                         [&](State other) { is_possible |= price_of_rest(other, 0) < kNever; });
+  return is_possible;
 }
 
 Time AgentStops::price_without(StopSet left) const {
@@ -204,13 +248,18 @@ std::shared_ptr<const std::int8_t[]> AgentStops::stops_of_states(const Instance&
     for (State state = 0; state < world.state_count(); ++state)
       if (world.is_working(state)) stop_at[state] = kForeignWork;
     const std::vector<TaskIndex>& stops = instance.agent(agent_).stops;
-    for (std::size_t stop = 0; stop < stops.size(); ++stop)
+    const auto fill_stop = [&](std::size_t stop) {
       world.for_each_state(instance.task(stops[stop]).cell, [&](State state) {
         if (instance.is_visited(stops[stop], state))
           stop_at[state] = static_cast<std::int8_t>(stop);
         else if (world.is_working(state) && world.work(state).task == stops[stop])
           stop_at[state] = static_cast<std::int8_t>(kFirstWork - static_cast<int>(stop));
       });
+    };
+    // The states of task executions belong to these tasks.
+    for (const bool takes_time : {false, true})
+      for (std::size_t stop = 0; stop < stops.size(); ++stop)
+        if ((instance.task(stops[stop]).duration > 0) == takes_time) fill_stop(stop);
     return true;
   };
   const std::byte* const made = shared.get(

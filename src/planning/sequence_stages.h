@@ -64,7 +64,8 @@ class AgentStops {
   // large arrays are there, too.
   AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent);
   // As above, for an agent that pays for its choices. The costs of all paths, to rest and to go are
-  // then prices. Requires an agent that turns freely.
+  // then prices. There is one port per stop, also if turns take time; then distances and costs to
+  // go are lower bounds.
   AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent,
              AgentPrices prices);
 
@@ -101,9 +102,11 @@ class AgentStops {
   // Distance from a state to the nearest state in which the agent may rest. With prices: the least
   // sum of this distance and the price of the goal. Requires !rests_on_last_stop().
   Time to_rest(State state) const { return to_rest_[state]; }
-  // The price of the goal on which the agent rests in this state; 0 without prices. kNever: it may
-  // not rest there. Requires !rests_on_last_stop().
-  Time price_of_rest(State state) const;
+  // The price of the goal on which the agent rests in this state, if it has not counted the stops
+  // of `left`; 0 without prices. kNever: it may not rest there. Requires !rests_on_last_stop().
+  Time price_of_rest(State state, StopSet left) const;
+  // Can the agent come to rest by turning on the place of this state? Requires prices.
+  bool may_turn_to_rest(State state) const;
   bool has_prices() const { return prices_ != nullptr; }
   // The price for leaving out all stops of `left`; kNever: it must visit one of them.
   Time price_without(StopSet left) const;
@@ -121,8 +124,11 @@ class AgentStops {
   CostToGo& cost_to_go() { return cost_to_go_; }
 
  private:
+  AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent,
+             CostToGo cost_to_go);
   std::shared_ptr<const std::int8_t[]> stops_of_states(const Instance& instance,
                                                        SharedArray shared) const;
+  bool lacks_visit_to_rest(Place place, StopSet left) const;
 
   // Values in stop_at_: kFirstWork - s while the agent executes the task at stop s, kForeignWork
   // while it executes a task that is not one of its stops.
@@ -258,7 +264,7 @@ class SequenceStages {
   Time price_of_rest(const Stage& stage, State state) const {
     if (stage.price >= kNever) return kNever;
     if (stops_.rests_on_last_stop()) return is_last_stop(stage, state) ? stage.price : kNever;
-    return add_costs(stage.price, stops_.price_of_rest(state));
+    return add_costs(stage.price, stops_.price_of_rest(state, stage.left));
   }
 
  private:

@@ -17,10 +17,10 @@
 namespace grove::detail {
 namespace choices_test {
 
-constexpr std::size_t kStates = 200'000;
+constexpr std::size_t kStates = 20'000;
 
 TEST(SolveWithChoices, AgreesWithTheOracle) {
-  int plans = 0;
+  int instances = 0;
   int optimal = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(100));
        ++seed) {
@@ -32,16 +32,15 @@ TEST(SolveWithChoices, AgreesWithTheOracle) {
     SolveOptions options;
     options.seed = seed;
     const Solution solution = solve_by(Method::kAuto, false, instance, options, Limits());
-    EXPECT_NE(solution.status, Status::kInfeasible);
+    ++instances;
     EXPECT_LE(solution.lower_bound, truth.plan->cost);
     if (!solution.plan) continue;
     EXPECT_EQ(check(instance, solution).size(), 0u);
     EXPECT_GE(solution.plan->cost, truth.plan->cost);
-    ++plans;
     optimal += solution.status == Status::kOptimal ? 1 : 0;
   }
-  EXPECT_GT(plans, 25);
-  EXPECT_GT(2 * optimal, plans);
+  EXPECT_GT(instances, 25);
+  EXPECT_GT(20 * optimal, 19 * instances);  // the others begin at work
 }
 
 TEST(SolveWithChoices, TooFewGoalsAreInfeasible) {

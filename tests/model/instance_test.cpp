@@ -119,5 +119,17 @@ TEST(InstanceBuilder, StopsRepresentAllTasksOnAPlace) {
   EXPECT_TRUE(instance.rests_on_last_stop(1));
 }
 
+TEST(InstanceBuilder, AgentThatMayLeaveOutStopsHasOneWithoutTime) {
+  auto b = builder();
+  b.may_leave_out_stops(b.add_agent("a", {0, 0}, Position{3, 0}));
+  b.add_agent("b", {1, 0}, Position{2, 0});
+  b.add_task("t0", {1, 0}, Ids{"a", "b"}, 3);
+  b.add_task("t1", {1, 0}, Ids{"a", "b"});
+  b.add_task("t2", {1, 0}, Ids{"a", "b"});
+  const Instance instance = std::move(b).build();
+  EXPECT_EQ(instance.agent(0).stops, (std::vector<TaskIndex>{0, 1}));
+  EXPECT_EQ(instance.agent(1).stops, (std::vector<TaskIndex>{0}));
+}
+
 }  // namespace instance_test
 }  // namespace grove::detail

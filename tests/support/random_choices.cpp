@@ -32,6 +32,19 @@ std::vector<std::string> random_agents(const Instance& instance, const Task& tas
   return ids;
 }
 
+// Adds up to two further tasks on the places of tasks, some of which take time.
+void add_on_same_places(const Instance& instance, Random& random, InstanceBuilder& builder) {
+  constexpr int kShares = 3;
+  if (instance.task_count() == 0 || random.below(kShares) > 0) return;
+  for (int more = 1 + random.below(2); more > 0; --more) {
+    const Task& task = instance.task(random.below(instance.task_count()));
+    const std::vector<std::string> ids = random_agents(instance, task, true, random);
+    const Time duration = random.below(3) == 0 ? 1 + random.below(2) : 0;
+    builder.add_task("also" + std::to_string(more), task.cell, ids, duration,
+                     1 + random.below(static_cast<int>(ids.size())));
+  }
+}
+
 }  // namespace
 
 Instance with_random_choices(const Instance& instance, std::uint64_t seed) {
@@ -54,6 +67,7 @@ Instance with_random_choices(const Instance& instance, std::uint64_t seed) {
     builder.add_task(task.id, task.cell, ids, task.duration,
                      more ? 1 + random.below(count) : count);
   }
+  if (has_needs) add_on_same_places(instance, random, builder);
   return std::move(builder).build();
 }
 
