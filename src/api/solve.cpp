@@ -16,7 +16,6 @@ namespace grove {
 namespace {
 
 constexpr int kMaxThreads = 1024;
-constexpr int kMaxVisitWeight = 100;
 
 detail::Method method_of(const Options& options) {
   const std::optional<detail::Method> method = detail::parse_method(options.method);
@@ -33,9 +32,10 @@ void require_numbers(const Options& options) {
     throw InvalidArgument("/time_limit", "expected at least 0 seconds");
   if (!(options.progress_interval >= 0))
     throw InvalidArgument("/progress_interval", "expected at least 0 seconds");
-  if (options.visit_weight < 0 || options.visit_weight > kMaxVisitWeight)
+  constexpr int kMaxWeight = detail::SolveOptions::kMaxVisitWeight;
+  if (options.visit_weight < 0 || options.visit_weight > kMaxWeight)
     throw InvalidArgument("/visit_weight", fmt::format("found {}; expected from 0 to {}",
-                                                       options.visit_weight, kMaxVisitWeight));
+                                                       options.visit_weight, kMaxWeight));
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ detail::SolveOptions search_options_of(const detail::Instance& instance, const O
   made.threads = options.threads;
   made.deterministic = options.deterministic;
   made.seed = options.seed;
-  made.tuning.visit_weight = options.visit_weight;
+  made.visit_weight = options.visit_weight;
   try {
     made = detail::options_of(method_of(options), made);
     if (options.start) made.start = valid_plan_of(instance, *options.start, "/start");

@@ -66,7 +66,7 @@ class AssignedRun {
   Solution search_two() {
     bound_ = lower_bound_of_choices(search_.instance, search_.distances, part(kShareForBound));
     AssignmentSearch assignments(search_.instance, search_.distances, options_.seed,
-                                 options_.tuning.visit_weight);
+                                 options_.visit_weight);
     const auto first = assignments.first_from(search_.old, limits_);
     if (!first) return kept_plan(without_assignment(options_, limits_, bound_));
     const Assignment second = improved(assignments);
@@ -96,7 +96,7 @@ class AssignedRun {
   bool needs_more(const Solution& solution) const {
     if (limits_.stop_requested() || search_.commit > 0) return false;
     if (!solution.plan) return solution.status == Status::kUnknown;
-    return options_.tuning.visit_weight == 0 &&
+    return options_.visit_weight == 0 &&
            !options_.omega.accepts(solution.plan->cost, solution.lower_bound);
   }
 
@@ -187,7 +187,7 @@ Cost objective(const Plan& plan, const SolveOptions& options) {
   Cost visits = 0;
   for (const AgentPlan& agent : plan.agents)
     for (const WorkTime& work : agent.work) visits += work.end;
-  return plan.cost + options.tuning.visit_weight * visits;
+  return plan.cost + options.visit_weight * visits;
 }
 
 Solution search_assigned(const AssignedSearch& search, const SolveOptions& options,

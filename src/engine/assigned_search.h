@@ -31,7 +31,7 @@ struct AssignedSearch {
   SearchFixed search;
 };
 
-// The objective of assignments: the cost, plus `options.tuning.visit_weight` times the sum of the
+// The objective of assignments: the cost, plus `options.visit_weight` times the sum of the
 // times of the stated visits.
 Cost objective(const Plan& plan, const SolveOptions& options);
 

@@ -45,6 +45,10 @@ struct SolveOptions {
   // Not used with kFixed or a low level other than kOwn; see techniques_of().
   Techniques techniques = Techniques::defaults();
   Tuning tuning = {};
+  static constexpr int kMaxVisitWeight = 100;
+  // From 0 to kMaxVisitWeight: weight of the times of visits by choice in re-planning; see
+  // objective() in assigned_search.h.
+  int visit_weight = 0;
   std::optional<Plan> start = std::nullopt;  // the first incumbent, a valid plan
   Checkpoints checkpoints = {};
   // Checkpoint of an earlier run of the same instance and policy, to resume from; nullptr: none.

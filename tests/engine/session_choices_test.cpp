@@ -35,7 +35,7 @@ constexpr std::size_t kStates = 100'000;
 Solution replanned(Session& session, Omega omega = {}, Time commit = 0, std::int64_t weight = 0) {
   SolveOptions options;
   options.omega = omega;
-  options.tuning.visit_weight = weight;
+  options.visit_weight = weight;
   return session.solve(options, testing::ClockReadingLimit(kLimitChecks), nullptr, commit);
 }
 
@@ -239,7 +239,7 @@ TEST(SessionWithChoices, VisitWeightAppliesToEndsOfTheOldPlan) {
   const Solution solution = replanned(session, {}, 0, 10);
   ASSERT_TRUE(solution.plan);
   SolveOptions options;
-  options.tuning.visit_weight = 10;
+  options.visit_weight = 10;
   EXPECT_LE(objective(*solution.plan, options), 8 + 10 * 9);
 }
 

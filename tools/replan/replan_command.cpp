@@ -71,16 +71,23 @@ struct ReplanArguments {
   std::string plan;
   std::int64_t at = 0;
   std::int64_t commit = 0;
+  std::int64_t visit_weight = 0;
   ChangeArguments change;
   fs::path output_instance;
 };
+
+SolveOptions options_of(const ReplanArguments& arguments) {
+  SolveOptions options = options_of_one_search(arguments.solve);
+  options.visit_weight = static_cast<int>(arguments.visit_weight);
+  return options;
+}
 
 class Replanning {
  public:
   Replanning(const CLI::App& app, ReplanArguments& arguments)
       : app_(app),
         a_(arguments),
-        options_(options_of_one_search(a_.solve)),
+        options_(options_of(a_)),
         loaded_(load(a_.solve)),
         plan_(read_plan()),
         session_(loaded_.instance, plan_) {}
@@ -299,6 +306,9 @@ void add_replan_command(CLI::App& root) {
                "cell that is blocked; on a roadmap a vertex, or A,B: a road (repeatable)");
   add_integer(*app, "--commit", a.commit, kPlanSteps,
               "number of steps of the old plan that all robots still follow");
+  add_integer(*app, "--visit-weight", a.visit_weight, {0, SolveOptions::kMaxVisitWeight},
+              "with tasks that only some of their robots must visit: weight of the times of these "
+              "visits against the cost; 10: tasks are visited early");
   app->add_option("--output-instance", a.output_instance,
                   "file for the remaining instance; default: name of the plan file, with .cts.json")
       ->type_name("FILE");
