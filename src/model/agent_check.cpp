@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <variant>
 
 namespace grove::detail {
@@ -205,11 +208,16 @@ class AgentCheck {
 
   void check_piece(const std::string& place, const WorkTime& work) {
     const Task& task = instance_.task(work.task);
-    if (std::ranges::count(task.agents, index_) == 0 || !has_stated_visits(task)) {
+    if (std::ranges::count(task.agents, index_) == 0) {
+      report_.add(place, "task '{}' does not list agent '{}'; expected a task that does", task.id,
+                  agent_.id);
+      return;
+    }
+    if (!has_stated_visits(task)) {
       report_.add(place,
-                  "task '{}' is no work of agent '{}'; expected one of its own that takes "
-                  "time, or that not all its agents must visit",
-                  task.id, agent_.id);
+                  "task '{}' takes no time and all its agents must visit it; expected only tasks "
+                  "with a duration or a choice of agents",
+                  task.id);
       return;
     }
     if (std::int64_t{work.end} - work.begin != task.duration)
@@ -275,6 +283,25 @@ class AgentCheck {
     return tasks;
   }
 
+  // The first difference between the sequence and own_tasks().
+  std::optional<std::string> wrong_task() const {
+    const std::vector<TaskIndex> own = own_tasks();
+    const auto with_id = [&](TaskIndex task, std::string_view what) {
+      return fmt::format("task '{}' {}", instance_.task(task).id, what);
+    };
+    for (const TaskIndex task : plan_.sequence) {
+      if (task < 0 || task >= instance_.task_count())
+        return fmt::format("there is no task {}", task);
+      if (std::ranges::count(plan_.sequence, task) > 1) return with_id(task, "is repeated");
+      if (std::ranges::count(own, task) > 0) continue;
+      const bool may_visit = std::ranges::count(agent_.options, task) > 0;
+      return with_id(task, may_visit ? "has no entry in \"work\"" : "does not list the agent");
+    }
+    for (const TaskIndex task : own)
+      if (std::ranges::count(plan_.sequence, task) == 0) return with_id(task, "is missing");
+    return std::nullopt;
+  }
+
   // Must a plan state the visits of this task?
   static bool has_stated_visits(const Task& task) {
     return task.duration > 0 || task.need < static_cast<int>(task.agents.size());
@@ -308,8 +335,8 @@ class AgentCheck {
 
   void check_sequence() {
     const std::string place = place_ + "/sequence";
-    if (!std::ranges::is_permutation(plan_.sequence, own_tasks())) {
-      report_.add(place, "expected every task of agent '{}' exactly once", agent_.id);
+    if (const auto wrong = wrong_task()) {
+      report_.add(place, "{}; expected every task of agent '{}' exactly once", *wrong, agent_.id);
       return;
     }
     // Choosing the earliest possible visit of each task is optimal, because it leaves the most time

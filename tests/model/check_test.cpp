@@ -213,13 +213,14 @@ TEST(Check, RefusesAWrongSequence) {
   const auto with = [](std::vector<TaskIndex> sequence) {
     return verdict(0, [&](AgentPlan& a) { a.sequence = std::move(sequence); });
   };
-  const std::string expected = "/agents/0/sequence: expected every task of agent 'a' exactly once";
-  EXPECT_EQ(with({}), expected);
-  EXPECT_EQ(with({0}), expected);
-  EXPECT_EQ(with({0, 0}), expected);
-  EXPECT_EQ(with({0, 2}), expected);  // a task of another agent
-  EXPECT_EQ(with({0, 1, 2}), expected);
-  EXPECT_EQ(with({0, 99}), expected);
+  const auto expected = [](const std::string& what) {
+    return "/agents/0/sequence: " + what + "; expected every task of agent 'a' exactly once";
+  };
+  EXPECT_EQ(with({}), expected("task 't0' is missing"));
+  EXPECT_EQ(with({0}), expected("task 't1' is missing"));
+  EXPECT_EQ(with({0, 0}), expected("task 't0' is repeated"));
+  EXPECT_EQ(with({0, 1, 2}), expected("task 't2' does not list the agent"));
+  EXPECT_EQ(with({0, 99}), expected("there is no task 99"));
   EXPECT_EQ(with({1, 0}),
             "/agents/0/sequence/1: the path of agent 'a' does not visit task 't0' in this order");
 }

@@ -187,6 +187,13 @@ TEST(Choices, CountsOnlyStatedVisits) {
             "/cost: the agents' costs add up to 10, but the plan claims 11");
 }
 
+TEST(Choices, TheSequenceHasOnlyStatedVisits) {
+  EXPECT_EQ(verdict([](Plan& plan) { plan.agents[kB].work.clear(); }),
+            "/agents/1/sequence: task 'two' has no entry in \"work\"; expected every task of agent "
+            "'b' exactly once\n"
+            "/agents: task 'two' is visited by 1 of its agents; expected at least 2");
+}
+
 TEST(Choices, StatedVisitsAreOnThePlaceOfTheTask) {
   EXPECT_EQ(verdict([](Plan& plan) {
               plan.agents[kB].work[0] = {1, 3, 3};
@@ -204,13 +211,12 @@ TEST(Choices, OnlyAgentsOfATaskVisitIt) {
               plan.agents[kC].work.push_back({1, 1, 1});
               plan.agents[kC].sequence.push_back(1);
             }),
-            "/agents/2/work/1: task 'two' is no work of agent 'c'; expected one of its own that "
-            "takes time, or that not all its agents must visit");
+            "/agents/2/work/1: task 'two' does not list agent 'c'; expected a task that does");
   EXPECT_EQ(verdict([](Plan& plan) {
               plan.agents[kD].work.push_back({2, 1, 1});
             }),
-            "/agents/3/work/1: task 'own' is no work of agent 'd'; expected one of its own that "
-            "takes time, or that not all its agents must visit");
+            "/agents/3/work/1: task 'own' takes no time and all its agents must visit it; expected "
+            "only tasks with a duration or a choice of agents");
 }
 
 TEST(Choices, EndsOnOneOfItsGoals) {

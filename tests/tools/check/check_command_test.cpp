@@ -66,13 +66,15 @@ TEST_F(CheckCommand, AcceptsAPlanForAScenario) {
 TEST_F(CheckCommand, PrintsEachViolationOnItsOwnLine) {
   const std::string collides =
       R"({"id": "b", "sequence": [], "cost": 3, "path": [[2,1],[1,1],[1,0],[0,1]]})";
-  EXPECT_EQ(said(check(kClaims, kAgentA + ", " + collides)),
-            "p.json: /agents/1/path/3: agent 'b' jumps from [1, 0] to [0, 1]; expected a wait or a "
-            "move to one of 4 neighbors\n"
-            "p.json: /agents/1/sequence: expected every task of agent 'b' exactly once\n"
-            "p.json: /cost: the agents' costs add up to 5, but the plan claims 4\n"
-            "p.json: /status: found 'bounded'; expected 'feasible' with cost 5, lower bound 3 and "
-            "omega 0.5\n");
+  EXPECT_EQ(
+      said(check(kClaims, kAgentA + ", " + collides)),
+      "p.json: /agents/1/path/3: agent 'b' jumps from [1, 0] to [0, 1]; expected a wait or a "
+      "move to one of 4 neighbors\n"
+      "p.json: /agents/1/sequence: task 't' is missing; expected every task of agent 'b' exactly "
+      "once\n"
+      "p.json: /cost: the agents' costs add up to 5, but the plan claims 4\n"
+      "p.json: /status: found 'bounded'; expected 'feasible' with cost 5, lower bound 3 and "
+      "omega 0.5\n");
 }
 
 TEST_F(CheckCommand, PointersReferToTheOrderOfThePlanFile) {

@@ -398,9 +398,9 @@ INSTANTIATE_TEST_SUITE_P(
         visit_with(
             "OtherAgent", R"("sequence": [], "cost": 0, "path": [[2, 0]])",
             R"("sequence": ["u"], "cost": 2, "work": [{"task": "u", "begin": 1, "end": 2}], "path": [[2, 0], [2, 1]])",
-            "/agents/2/work/0: task 'u' is no work of agent 'c'; expected one of its own"),
+            "/agents/2/work/0: task 'u' does not list agent 'c'; expected a task that does"),
         visit_with("NotInTheSequence", "[\"t\", \"u\"]", "[\"u\"]",
-                   "/agents/1/sequence: expected "),
+                   "/agents/1/sequence: task 't' is missing; expected every task of agent 'b'"),
         visit_with("OtherOrder", "[\"t\", \"u\"]", "[\"u\", \"t\"]", "/agents/1/sequence/1: "),
         visit_with("TooFewVisits", R"(, {"task": "u", "begin": 4, "end": 5})", "",
                    "/agents: task 'u' is visited by 0 of its agents; expected at least 1"),
