@@ -133,8 +133,9 @@ class ChangeApplication {
         throw InstanceError(field, fmt::format("'{}' is there", agent.id));
       if (agent.goal == blocked)
         throw InstanceError(field, fmt::format("it is the destination of '{}'", agent.id));
-      if (std::ranges::count(agent.goals, blocked) > 0)
-        throw InstanceError(field, fmt::format("it is one of the goals of '{}'", agent.id));
+      if (std::ranges::count(agent.goals, blocked) > 0 &&
+          std::ranges::all_of(agent.goals, [&](Place goal) { return is_blocked(goal); }))
+        throw InstanceError(field, fmt::format("no goal of '{}' is left", agent.id));
     }
     for (TaskIndex task = 0; task < instance_.task_count(); ++task)
       if (!dropped_[task] && instance_.task(task).cell == blocked)
@@ -142,6 +143,8 @@ class ChangeApplication {
                             fmt::format("task '{}' is there; expected that it is dropped as well",
                                         instance_.task(task).id));
   }
+
+  bool is_blocked(Place place) const { return std::ranges::count(change_.blocked, place) > 0; }
 
   // The JSON field of the change that closes the road.
   std::string field_of(const Roadmap& roadmap, int road) const {
@@ -164,6 +167,7 @@ class ChangeApplication {
       AgentSpec spec = instance_.spec(i);
       spec.start.place = place_now(spec.start.place);
       if (spec.goal) spec.goal = place_now(*spec.goal);
+      std::erase_if(spec.goals, [&](Place goal) { return is_blocked(goal); });
       for (Place& goal : spec.goals) goal = place_now(goal);
       GROVE_CHECK(spec.start.place != kNoPlace && spec.goal.value_or(0) != kNoPlace,
                   "the start and the destination of an agent stay open");

@@ -42,8 +42,8 @@ struct Changed {
 // closed, all states keep their numbers, except for states at work. Throws InstanceError with field
 // "new_tasks/<i>/...", "dropped_tasks/<i>", "blocked/<i>" or "closed_roads/<i>" if a part of the
 // change is impossible. A place or road cannot be closed if an agent starts there, or if it is the
-// place of a destination (also one of several) or of a task that is not dropped. A cell that is
-// blocked on the map cannot be closed either.
+// place of a destination or of a task that is not dropped. Of several goals of an agent, closed
+// ones are removed; one must be left. A cell that is blocked on the map cannot be closed either.
 Changed apply(const Instance& instance, const Plan& plan, const InstanceChange& change);
 
 }  // namespace grove::detail

@@ -32,7 +32,7 @@ using Ids = std::vector<std::string>;
 constexpr std::int64_t kLimitChecks = 10'000;  // limit on clock readings per solve
 constexpr std::size_t kStates = 100'000;
 
-Solution replanned(Session& session, Omega omega = {}, Time commit = 0, std::int64_t weight = 0) {
+Solution replanned(Session& session, Omega omega = {}, Time commit = 0, int weight = 0) {
   SolveOptions options;
   options.omega = omega;
   options.visit_weight = weight;
@@ -159,15 +159,23 @@ TEST(SessionWithChoices, DroppedTaskFreesItsAgent) {
   EXPECT_EQ(replanned(session).plan->cost, 0);
 }
 
-TEST(SessionWithChoices, PlaceOfAChoiceOfGoalsCannotBeClosed) {
+TEST(SessionWithChoices, ClosedGoalsAreRemovedWhileOneIsLeft) {
   Session session(testing::instance_with_goals());
+  ASSERT_TRUE(replanned(session).plan);
   InstanceChange change;
-  change.blocked.push_back(2);
+  change.blocked.push_back(0);
+  session.change(change);
+  EXPECT_EQ(session.instance().agent(0).goals, std::vector<Place>{2});
+  const Solution solution = replanned(session);
+  ASSERT_TRUE(solution.plan);
+  EXPECT_EQ(check(session.instance(), solution).size(), 0u);
+  EXPECT_EQ(solution.plan->agents[0].path.back(), 2);
+  change.blocked = {2};
   try {
     session.change(change);
     FAIL();
   } catch (const InstanceError& error) {
-    EXPECT_STREQ(error.what(), "it is one of the goals of 'a0'");
+    EXPECT_STREQ(error.what(), "no goal of 'a0' is left");
   }
 }
 
