@@ -307,9 +307,12 @@ class Reader(unittest.TestCase):
         for where in ((), ("agents", 0), ("tasks", 0)):
             for key in ("gaol", "Duration", "deadline", "", "$id", "x" * 10**5):
                 refused(on_map, put(*where, key, value=1), "unknown key")
-        for path, value in ((("agents", 0, "goals"), [cell]), (("tasks", 0, "need"), 1)):
-            refused(on_map, put(*path, value=value), f'"{path[-1]}": certificates of instances with choices are not supported')
-        refused(on_map, put("tasks", 0, "agents", value="*"), "tasks 0: expected agents, a list of ids")
+        for value in ([], [cell], cell, "*"):
+            refused(on_map, put("agents", 0, "goals", value=value), "agents 0: expected goals, a list of places")
+        for value in (0, 9, -1, "1", None, 1.0):
+            refused(on_map, put("tasks", 0, "need", value=value), "tasks 0: expected need, at most the number of agents")
+        for value in ("**", "", "a0", []):
+            refused(on_map, put("tasks", 0, "agents", value=value), "tasks 0: expected agents, a list of ids")
         for path, value in (
                 (("roadmap",), "tiny.map"), (("agents",), []), (("agents", 0, "id"), ""), (("agents", 0, "id"), "a\0"),
                 (("agents", 0, "start"), [0.0, 0]), (("agents", 0, "start"), [0, 1e0]),

@@ -43,6 +43,12 @@ ERRANDS = Instance(grid("....."), [Agent((2,), 2), Agent((3,), 3)],
                    [(0, 0, [0]), (4, 0, [0]), (4, 0, [0]), (1, 2, [0])])
 
 
+# Task 0 is in the middle, and one of two agents must visit it. Each of them then takes two steps more.
+SHARED = Instance(grid("....."), [Agent((1,), 0), Agent((3,), 4)], [(2, 0, [0, 1])], {0: 1})
+# Both agents can end on cell 0 or 2. Agent 1 cannot pass agent 0.
+QUEUE = Instance(grid("....."), [Agent((3,), goals=[2, 0]), Agent((4,), goals=[0, 2])])
+
+
 def certificate(instance, *lines, following="yes"):
     return "\n".join(["grove-proof 1", f"instance {instance.checksum()}", f"following {following}", *lines,
                       "end"]) + "\n"
@@ -312,6 +318,100 @@ class Rules(unittest.TestCase):
         for wrong in ("node 1 3 12 0 1", "node 1 2 12 0 0", "node 1 2 12 0 1 since 2", "node 1 2 12 0 1 since 1"):
             self.refused_formula("the core does not follow", ERRAND, 14,
                                  *(wrong if line == NODES[2] else line for line in lines), CORES[0], at=len(lines) + 1)
+
+    def test_choices_prove_the_sum_of_prices(self):
+        self.verified(SHARED, "theorem 4", "choices", "task 0 2", "formula", "end")
+        self.verified(SHARED, "theorem 3", "choices", "task 0 1", "formula", "end")
+        # If both agents prefer to visit the task, one visit is paid too often.
+        self.verified(SHARED, "theorem 3", "choices", "task 0 3", "formula", "end")
+        self.refused(5, "the formula proves 4; expected 5", SHARED, "theorem 5", "choices", "task 0 2", "formula", "end")
+        self.refused(5, "the formula proves 3; expected 4", SHARED, "theorem 4", "choices", "task 0 3", "formula", "end")
+        self.refused(4, "the formula proves 2; expected 4", SHARED, "theorem 4", "choices", "formula", "end")
+        self.verified(QUEUE, "theorem 5", "choices", "goal 2 2", "formula", "end")
+        self.refused(5, "the formula proves 5; expected 6", QUEUE, "theorem 6", "choices", "goal 2 2", "formula", "end")
+        # Without an agent that ends on cell 2, its price is not paid.
+        self.refused(5, "the formula proves 3; expected 4", QUEUE, "theorem 4", "choices", "goal 2 4", "formula", "end")
+
+    def test_tasks_with_durations_and_obligations_have_prices(self):
+        work = Instance(SHARED.world, SHARED.agents, [(2, 5, [0, 1]), (1, 0, [0])], {0: 1})
+        self.verified(work, "theorem 9", "choices", "task 0 7", "formula", "end")
+        self.refused(5, "the formula proves 9", work, "theorem 10", "choices", "task 0 7", "formula", "end")
+        # An agent without a goal that must visit nothing ends where it likes, here on the task.
+        spare = Instance(SHARED.world, [Agent((1,), 0), Agent((4,))], [(2, 0, [0, 1])], {0: 1})
+        self.verified(spare, "theorem 3", "choices", "task 0 2", "formula", "end")
+        self.refused(5, "the formula proves 3", spare, "theorem 4", "choices", "task 0 2", "formula", "end")
+        # Cell 4 is the goal of agent 0, so agent 1 must go to cell 0.
+        taken = Instance(grid(".....", "....."), [Agent((3,), 4), Agent((5,), goals=[4, 0])])
+        self.verified(taken, "theorem 2", "choices", "formula", "end")
+        self.refused(3, "no agent chooses this goal", taken, "theorem 2", "choices", "goal 4 1", "formula", "end")
+
+    def test_limits_of_visits_are_those_of_the_task(self):
+        def refused(*lines, price=1, reason="more inputs of the sum may be true"):
+            head = ["theorem 5", "choices", *(["task 0 1"] if price else []), "formula"]
+            self.refused(len(head) + len(lines), reason, three, *head, *lines, "end")
+
+        three = Instance(grid("......"), [Agent((1,), 0), Agent((3,), 4), Agent((5,), 5)],
+                         [(2, 0, [0, 1, 2]), (3, 0, [0, 1])], {0: 1, 1: 1})
+        counts, skips = [f"counts {agent} 0" for agent in range(3)], [f"skips {agent} 0" for agent in range(3)]
+        for limit in (0, 1):
+            refused(*counts, "sum -1 -2 -3", f"atmost 0 {limit}")
+        refused(*skips, "sum -1 -2 -3", "atmost 0 0")
+        refused(*skips, "sum -1 -2 -3", "atmost 0 2", price=0)  # without a price, surplus visits count
+        refused(*counts, "sum -1 -2 -2", "atmost 0 2")
+        refused(*counts, "sum -1 -2 3", "atmost 0 2")
+        refused(*counts, "counts 0 1", "sum -4 -2", "atmost 0 2")
+        refused(*counts, *skips, "sum -1 -5", "atmost 0 2")
+        refused("within 0 0", "sum -1", "atmost 0 2")
+        refused("counts 2 1", reason="no choice whether to visit")
+        refused("skips 2 1", reason="no choice whether to visit")
+        refused(*counts, "counts 0 0", reason="this variable exists")
+        for lines in ([*counts, "sum -1 -2 -3", "atmost 0 2", "clause 1 2 3"],
+                      [*skips, "sum -1 -2 -3", "atmost 0 1", "count 0 0 3 2", "clause -4"]):
+            self.verified(three, "theorem 0", "choices", "task 0 1", "formula", *lines, "end")
+
+    def test_used_goals_have_agents_that_rest_there(self):
+        meets = ["meets 0 rest 2 inf", "meets 1 rest 2 inf"]
+        head = ["theorem 6", "choices", "goal 2 2", "formula"]
+        last = "expected 6"  # all steps follow
+        good = ["used 2 1", "used 2 0", *meets]
+        self.refused(11, last, QUEUE, *head, *good, "clause -1 2", "clause -1 3 4", "end")
+        self.refused(9, "does not follow", QUEUE, *head, *good, "clause -1 3", "end")
+        self.refused(8, "does not follow", QUEUE, *head, *good[:3], "clause -1 3", "end")
+        self.refused(9, "does not follow", QUEUE, *head, "used 2 1", "used 2 0", meets[0], "meets 1 rest 2 9",
+                     "clause -1 3 4", "end")
+        self.refused(5, "its price is less", QUEUE, *head, "used 2 3", "end")
+        self.refused(5, "no agent chooses this goal", QUEUE, *head, "used 1 0", "end")
+        self.refused(6, "this variable exists", QUEUE, *head, "used 2 1", "used 2 1", "end")
+        self.refused(7, "does not deny a soft literal", QUEUE, *head, "used 2 0", "sum -1", "core 0", "end")
+        self.refused(7, "the core does not follow", QUEUE, *head, "used 2 1", "sum -1", "core 0", "end")
+
+    def test_prices_are_those_of_choices(self):
+        for line in ("task 0 0", "task 0 1048577", "goal 0 1", "task 1 1"):
+            self.refused(3, "", SHARED, "theorem 4", "choices", line, "formula", "end")
+        self.refused(4, "has a price", SHARED, "theorem 4", "choices", "task 0 2", "task 0 2", "formula", "end")
+        self.refused(4, "has a price", QUEUE, "theorem 5", "choices", "goal 2 2", "goal 2 2", "formula", "end")
+        self.refused(2, "the instance has no choices", ERRAND, "theorem 4", "choices", "task 0 2", "formula", "end")
+        self.refused(2, "the instance has no choices", CROSS, "theorem 4", "choices", "formula", "end")
+        self.refused(2, "choices require all agents", SHARED, "lemma 1 0", "choices", "formula", "end")
+
+    def test_no_other_rule_covers_choices(self):
+        for rule in ("leaf", "joint", "prices", "formula", "split 0 bar 4 1 1 | 1 bar 4 1 1"):
+            for instance in (SHARED, QUEUE):
+                self.refused(2, "an instance with choices requires", instance, "theorem 2", rule, "end")
+                self.refused(2, "an instance with choices requires", instance, "lemma 2 0", rule, "end")
+
+    def test_agents_that_choices_do_not_cover(self):
+        world, plain = SHARED.world, Agent((1,), 0)
+        both, one = [(2, 0, [0, 1])], {0: 1}
+        for reason, instance in (
+                ("needs time to turn", Instance(world, [plain, Agent((3, "E"), 4, 1)], both, one)),
+                ("needs time to turn", Instance(world, [Agent((3, "E"), None, 1, goals=[1])])),
+                ("executes a task of its choice", Instance(
+                    world, [plain, Agent((2,), 4, working=(0, 1))], [(2, 3, [0, 1])], one)),
+                ("several tasks on one place", Instance(world, [plain, Agent((3,), 4)], [*both, (2, 0, [1])], one)),
+                ("several tasks on one place", Instance(world, [plain, Agent((3,), 4)], both * 2, {0: 1, 1: 1})),
+                ("no goal, but must visit tasks", Instance(world, [plain, Agent((3,))], [*both, (4, 0, [1])], one))):
+            self.refused(2, f"agent . has a choice and {reason}", instance, "theorem 0", "choices", "formula", "end")
 
     def test_variables_are_defined_once(self):
         for line in ("within 0 0", "active 0", "visit 0 10 0", "last 0 14 4", "rests 0 14 inf", "rests 0 14 5",

@@ -65,17 +65,21 @@ class World:
 
 
 class Agent:
-    """Represents an agent. Its start is a pose: (place,), (place, heading) or (place, heading, to, steps done)."""
+    """Represents an agent. Its start is a pose: (place,), (place, heading) or (place, heading, to, steps done).
 
-    def __init__(self, start, goal=None, turn=0, goal_heading=None, working=None):
+    goals: the places of which it chooses its goal; only for hand-made certificates."""
+
+    def __init__(self, start, goal=None, turn=0, goal_heading=None, working=None, goals=()):
         self.start, self.goal, self.turn, self.goal_heading, self.working = start, goal, turn, goal_heading, working
+        self.goals = list(goals)
 
 
 class Instance:
-    """Represents an instance. Each task is (place, duration, agents)."""
+    """Represents an instance. Each task is (place, duration, agents). needs: the needs of tasks with a choice of
+    agents, by number; only for hand-made certificates."""
 
-    def __init__(self, world, agents, tasks=()):
-        self.world, self.agents, self.tasks = world, agents, list(tasks)
+    def __init__(self, world, agents, tasks=(), needs=None):
+        self.world, self.agents, self.tasks, self.needs = world, agents, list(tasks), needs or {}
 
     @functools.cache
     def own(self, agent):
@@ -134,9 +138,13 @@ class Instance:
             if agent.turn:
                 _, heading, to, k = agent.start if len(agent.start) == 4 else (*agent.start, agent.start[1], 0)
                 lines.append(f"looks {heading} {to} {k} {agent.goal_heading or '-'}")
+            if agent.goals:
+                lines.append(" ".join(map(str, ["goals", *agent.goals])))
             if agent.working:
                 lines.append("working {} {}".format(*agent.working))
-        lines += [" ".join(map(str, ["task", place, duration, *agents])) for place, duration, agents in self.tasks]
+        for number, (place, duration, agents) in enumerate(self.tasks):
+            lines.append(" ".join(map(str, ["task", place, duration, *agents])))
+            lines += [f"need {self.needs[number]}"] if number in self.needs else []
         value = 0xcbf29ce484222325
         for byte in "".join(line + "\n" for line in lines).encode():
             value = (value ^ byte) * 0x100000001b3 % 2**64
@@ -159,6 +167,8 @@ class Instance:
             one = {"id": f"a{number}", "start": cell(agent.start[0])}
             if agent.goal is not None:
                 one["goal"] = cell(agent.goal)
+            if agent.goals:
+                one["goals"] = [cell(goal) for goal in agent.goals]
             if agent.turn:
                 one |= {"motion": "turning", "turn_steps": agent.turn, "heading": agent.start[1],
                         "start": [*one["start"], *agent.start[1:]]}
@@ -168,6 +178,8 @@ class Instance:
             agents.append(one)
         tasks = [{"id": f"t{number}", "cell": cell(place), "agents": [f"a{a}" for a in own], "duration": duration}
                  for number, (place, duration, own) in enumerate(self.tasks)]
+        for number, need in self.needs.items():
+            tasks[number]["need"] = need
         path = folder / f"{name}.cts.json"
         path.write_text(json.dumps(text | {"agents": agents, "tasks": tasks}))
         return path

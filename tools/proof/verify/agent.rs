@@ -3,6 +3,7 @@
 //! of stops and ignore all other constraints.
 use crate::instance::{Agent, Instance, Place, World};
 use crate::orders::{After, Bound, Orders};
+use crate::priced::{self, Completions};
 use crate::tokens::Map;
 use std::rc::Rc;
 
@@ -140,6 +141,29 @@ struct Choice {
     done: Vec<Done>,
 }
 
+/// Where an agent with a choice may rest, and at which price.
+pub enum Rest {
+    /// On these places, at these prices.
+    On(Vec<(Place, u32)>),
+    Anywhere,
+}
+
+/// Prices of an agent with a choice (docs/proof.md, "choices"). All costs of paths are then prices.
+pub struct AgentPrices {
+    /// By stop: for leaving it out. NEVER: it must do the stop.
+    pub skip: Vec<u32>,
+    pub rest: Rest,
+}
+
+impl AgentPrices {
+    fn of_rest(&self, place: Place) -> u32 {
+        match &self.rest {
+            Rest::Anywhere => 0,
+            Rest::On(places) => places.iter().find(|known| known.0 == place).map_or(NEVER, |known| known.1),
+        }
+    }
+}
+
 /// With at most this number of stops, the first computation of remaining costs covers all paths.
 const MAX_STOPS_AT_ONCE: usize = 5;
 /// With at most this number of stops, the computation covers all paths if the first limit does not suffice.
@@ -169,14 +193,18 @@ pub struct AgentModel {
     /// Restrictions with known remaining costs; `now` is the index of the current one.
     choices: Vec<Choice>,
     now: usize,
+    /// For an agent with a choice: its prices, and lower bounds on remaining prices.
+    priced: Option<(AgentPrices, Completions)>,
 }
 
 impl AgentModel {
     pub fn of(instance: &Instance, agent: &Agent, poses: Rc<Poses>) -> AgentModel {
-        let timed = |place| agent.tasks.iter().any(|&t| instance.tasks[t as usize].place == place && instance.tasks[t as usize].duration > 0);
+        let mut tasks: Vec<u32> = agent.tasks.iter().chain(&agent.options).copied().collect();
+        tasks.sort_unstable();
+        let timed = |place| tasks.iter().any(|&t| instance.tasks[t as usize].place == place && instance.tasks[t as usize].duration > 0);
         let mut stops: Vec<Stop> = Vec::new();
-        let mut stops_at = vec![0u64; if agent.tasks.is_empty() { 0 } else { instance.world.links.len() }];
-        for &task in &agent.tasks {
+        let mut stops_at = vec![0u64; if tasks.is_empty() { 0 } else { instance.world.links.len() }];
+        for &task in &tasks {
             let (place, duration) = (instance.tasks[task as usize].place, instance.tasks[task as usize].duration);
             if duration > 0 || (!timed(place) && stops_at[place as usize] == 0) {
                 assert!(stops.len() < 63, "an agent with more than 63 stops");
@@ -204,6 +232,7 @@ impl AgentModel {
             bound: None,
             choices: Vec::new(),
             now: 0,
+            priced: None,
             poses,
             stops,
             stops_at,
@@ -216,6 +245,91 @@ impl AgentModel {
     }
 
     fn distances(&self, pose: u32) -> &[u32] { &self.distances[pose as usize * self.posts.len()..][..self.posts.len()] }
+
+    /// Sets the prices of an agent with a choice that turns freely. Returns its least price; NEVER: it has no path. None: the orders of its
+    /// stops are too expensive. From now on all costs are prices, without constraints on the order of stops.
+    pub fn set_prices(&mut self, prices: AgentPrices) -> Option<u32> {
+        assert!(self.poses.turn == 0, "agents with choices turn freely");
+        self.ends = match &prices.rest {
+            Rest::Anywhere => vec![0; self.poses.place.len()],
+            Rest::On(places) => self.poses.spread(places.iter().flat_map(|&(place, price)| self.poses.on(place).map(move |pose| (price, pose))).collect()),
+        };
+        let free = if self.working.is_none() { priced::price_without(&prices.skip, self.all()) } else { NEVER };
+        let free = free.saturating_add(self.ends[self.start as usize]).min(NEVER);
+        let bounds = Completions::of(&self.orders(&[]), &prices.skip);
+        self.priced = Some((prices, bounds));
+        let (mut limit, mut step) = (free.min(self.least_bound()), 1);
+        let longest = self.longest();
+        while limit <= longest {
+            let (after, found) = self.orders_within(limit)?;
+            let least = free.min(found);
+            if least <= limit {
+                self.set_orders(after, limit, least);
+                return Some(least);
+            }
+            if limit == longest { break; }
+            limit = limit.saturating_add(step).min(longest);
+            step *= 2;
+        }
+        Some(NEVER)
+    }
+
+    fn set_orders(&mut self, after: After, limit: u32, least: u32) {
+        self.choices = vec![Choice { allowed: Vec::new(), after, limit, least, numbers: Map::default(), done: Vec::new() }];
+        self.now = 0;
+    }
+
+    /// Returns a lower bound on the price of every path that does a stop.
+    fn least_bound(&self) -> u32 {
+        priced::least_bound(&self.orders(&[]), &self.priced.as_ref().expect("prices").1)
+    }
+
+    /// Returns an upper bound on the least price, if the agent has a path.
+    fn longest(&self) -> u32 {
+        let far = self.distances.iter().chain(&self.ends).copied().filter(|&steps| steps < NEVER).max().unwrap_or(0);
+        let prices = &self.priced.as_ref().expect("prices").0;
+        let skip: u32 = prices.skip.iter().filter(|&&price| price < NEVER).sum();
+        let work: u32 = self.stops.iter().map(|stop| stop.duration).sum();
+        (self.stops.len() as u32 + 1).saturating_mul(far).saturating_add(skip + work).min(NEVER - 1)
+    }
+
+    fn orders_within(&self, limit: u32) -> Option<(After, u32)> {
+        let bounds = &self.priced.as_ref().expect("prices").1;
+        priced::within(&self.orders(&[]), bounds, limit)
+    }
+
+    pub fn is_priced(&self) -> bool { self.priced.is_some() }
+
+    /// Returns the price of leaving out all stops except `done`; NEVER if the agent must do one of them.
+    pub fn skipped(&self, done: u64) -> u32 {
+        let left = self.all() & !done;
+        match &self.priced {
+            Some((prices, _)) => priced::price_without(&prices.skip, left),
+            None if left == 0 => 0,
+            None => NEVER,
+        }
+    }
+
+    /// Returns the price of resting on a place. NEVER: the agent may not rest there. Requires prices.
+    pub fn price_of_rest(&self, place: Place) -> u32 { self.priced.as_ref().expect("prices").0.of_rest(place) }
+
+    /// Returns the stops that the agent need not count when it passes them: those with a price above 0.
+    pub fn passable(&self, stops: u64) -> u64 {
+        let may_pass = |j: usize| self.priced.as_ref().map_or(false, |(prices, _)| (1..NEVER).contains(&prices.skip[j]));
+        (0..self.stops.len()).filter(|&j| stops >> j & 1 == 1 && may_pass(j)).fold(0, |all, j| all | 1 << j)
+    }
+
+    fn orders<'a>(&'a self, allowed: &'a [u64]) -> Orders<'a> {
+        Orders {
+            first: self.distances(self.start),
+            legs: self.posts.iter().flat_map(|&(_, pose)| self.distances(pose)).copied().collect(),
+            last: self.posts.iter().map(|&(_, pose)| self.ends[pose as usize]).collect(),
+            durations: self.stops.iter().map(|stop| stop.duration).collect(),
+            working: self.working.map(|(stop, end)| (stop as usize, stop * self.poses.each + self.start % self.poses.each, end)),
+            posts: &self.posts,
+            allowed,
+        }
+    }
 
     pub fn all(&self) -> u64 { (1 << self.stops.len()) - 1 }
 
@@ -248,16 +362,7 @@ impl AgentModel {
         let size = |choice: &Choice| 10_000 + choice.after.len() + 5 * choice.done.len();
         if self.choices.iter().map(size).sum::<usize>() > 4_000_000 { self.choices.clear(); }
         let mut bound = self.bound.take();
-        let orders = Orders {
-            first: self.distances(self.start),
-            legs: self.posts.iter().flat_map(|&(_, pose)| self.distances(pose)).copied().collect(),
-            last: self.posts.iter().map(|&(_, pose)| self.ends[pose as usize]).collect(),
-            durations: self.stops.iter().map(|stop| stop.duration).collect(),
-            working: self.working.map(|(stop, end)| (stop as usize, stop * self.poses.each + self.start % self.poses.each, end)),
-            posts: &self.posts,
-            allowed: &allowed,
-        };
-        let (after, limit, least) = orders.after(&mut bound, wanted);
+        let (after, limit, least) = self.orders(&allowed).after(&mut bound, wanted);
         self.bound = bound;
         self.now = self.choices.len();
         self.choices.push(Choice { allowed, after, limit, least, numbers: Map::default(), done: Vec::new() });
@@ -270,6 +375,11 @@ impl AgentModel {
     /// Raises the limit to `cost` or more if the computation is affordable. Returns whether the limit is now at least `cost`. If it is
     /// raised, results of number() become invalid.
     pub fn raise_limit(&mut self, cost: u32) -> bool {
+        if self.is_priced() {
+            if self.limit() >= cost { return true; }
+            let found = self.orders_within(cost);
+            return found.map(|(after, least)| self.set_orders(after, cost, least)).is_some();
+        }
         let few = self.stops.len() <= MAX_STOPS_COMPLETE;
         if self.limit() < cost && (few || cost < self.choices[self.now].least + MAX_EXCESS) {
             let Choice { allowed, limit, least, .. } = self.choices.swap_remove(self.now);
@@ -302,8 +412,9 @@ impl AgentModel {
     /// the limit, the result can be too high or NEVER.
     pub fn remains(&self, number: u32, pose: u32) -> u32 {
         let Done { stops, rest } = &self.choices[self.now].done[number as usize];
-        if *stops == self.all() { return self.ends[pose as usize]; }
-        let (distances, mut least) = (self.distances(pose), NEVER);
+        let ends = self.skipped(*stops).saturating_add(self.ends[pose as usize]).min(NEVER);
+        if *stops == self.all() { return ends; }
+        let (distances, mut least) = (self.distances(pose), ends);
         for &(rest, post) in rest.iter().take_while(|rest| rest.0 < NEVER) {
             if rest >= least { break; }
             least = least.min(rest + distances[post as usize]);

@@ -63,6 +63,8 @@ struct Agent {
     nodes: Vec<(NamedNode, Variable)>,
     known_nodes: HashSet<(u32, Spot, u64)>,
     meets: Vec<(Constraint, Variable)>,
+    /// By task with a choice of agents, and whether the agent counts it.
+    counts: BTreeMap<(u32, bool), Variable>,
     /// By last inner place and exit of a traversal, and time.
     inside: BTreeMap<(u32, u32, u32), Variable>,
     ends: BTreeMap<(u32, u32, u32), Variable>,
@@ -91,6 +93,41 @@ impl Agent {
     fn within(&self, low: u32, high: u32) -> Option<Variable> { self.within.range(low..=high).next_back().map(|found| *found.1) }
 }
 
+/// The choices of an instance, and their prices (docs/proof.md, "choices").
+#[derive(Default)]
+pub struct Choices {
+    /// By task.
+    pub tasks: Vec<TaskChoice>,
+    pub goals: BTreeMap<u32, GoalChoice>,
+}
+
+pub struct TaskChoice {
+    /// The agents that may visit the task.
+    pub agents: Vec<u32>,
+    pub need: u32,
+    pub price: u32,
+}
+
+impl Choices {
+    /// Returns by how much the sum of all prices exceeds the cost of a plan. The prices of goals for which no agent pays are part of this
+    /// sum.
+    pub fn constant(&self) -> u64 {
+        let of_task = |task: &TaskChoice| u64::from(task.price) * (task.agents.len() as u64 - u64::from(task.need));
+        self.tasks.iter().map(of_task).sum::<u64>() + self.goals.values().map(|goal| u64::from(goal.price)).sum::<u64>()
+    }
+}
+
+impl TaskChoice {
+    fn is_choice(&self) -> bool { (self.need as usize) < self.agents.len() }
+}
+
+/// A place where agents with a choice of goals may end.
+#[derive(Default)]
+pub struct GoalChoice {
+    pub agents: Vec<u32>,
+    pub price: u32,
+}
+
 /// A count of true inputs: the sum, the range of the inputs, and the least number of them.
 type Count = (u32, u32, u32, u32);
 
@@ -101,6 +138,13 @@ pub struct Formula {
     sums: Vec<Vec<Literal>>,
     counts: BTreeMap<Count, Variable>,
     splits: Vec<(Literal, Literal)>,
+    pub choices: Choices,
+    /// By literal that states whether an agent counts a task: the task and the agent, and whether it counts.
+    counters: HashMap<Literal, ((u32, u32), bool)>,
+    /// By goal and unit of its price.
+    used: BTreeMap<(u32, u32), Variable>,
+    /// A sum, and the greatest number of its inputs that are true.
+    limits: Vec<(u32, u32)>,
     /// By literal that states a constraint.
     constraints: HashMap<Literal, Constraint>,
     clauses: Clauses,
@@ -184,6 +228,27 @@ impl Formula {
                 let variable = self.variable()?;
                 ensure(self.counts.insert((sum, first, end, count), variable).is_none(), "this variable exists")?;
             }
+            "counts" | "skips" => {
+                let (agent, task) = (self.agent(tokens)?, tokens.index(self.choices.tasks.len(), "task")?);
+                let choice = &self.choices.tasks[task as usize];
+                ensure(choice.is_choice() && choice.agents.contains(&(agent as u32)), "the agent has no choice whether to visit the task")?;
+                let (variable, counts) = (self.variable()?, name == "counts");
+                ensure(self.agents[agent].counts.insert((task, counts), variable).is_none(), "this variable exists")?;
+                self.counters.insert(yes(variable), ((task, agent as u32), counts));
+            }
+            "used" => {
+                let (place, unit) = (tokens.index(places, "place")?, tokens.number()?);
+                let price = self.choices.goals.get(&place).map(|goal| goal.price);
+                ensure(price.map_or(false, |price| unit <= price), "no agent chooses this goal, or its price is less")?;
+                let variable = self.variable()?;
+                ensure(self.used.insert((place, unit), variable).is_none(), "this variable exists")?;
+            }
+            "atmost" => {
+                let sum = tokens.index(self.sums.len(), "sum")?;
+                let most = tokens.number()?;
+                ensure(self.limits_visits(&self.sums[sum as usize], most), "more inputs of the sum may be true")?;
+                self.limits.push((sum, most));
+            }
             "split" => {
                 let (one, two) = (self.literal(tokens)?, self.literal(tokens)?);
                 self.splits.push((one, two));
@@ -191,6 +256,20 @@ impl Formula {
             _ => return Ok(false),
         }
         tokens.end().map(|_| true)
+    }
+
+    /// Returns whether at most `most` of these literals are true in every plan considered: they deny that agents count one task, or
+    /// that they do not count it.
+    fn limits_visits(&self, inputs: &[Literal], most: u32) -> bool {
+        let counters: Option<Vec<&((u32, u32), bool)>> = inputs.iter().map(|&input| self.counters.get(&not(input))).collect();
+        let counters = match counters { Some(counters) if !counters.is_empty() => counters, _ => return false };
+        let ((task, _), counts) = *counters[0];
+        let mut agents: Vec<u32> = counters.iter().map(|counter| counter.0.1).collect();
+        agents.sort_unstable();
+        let distinct = agents.windows(2).all(|two| two[0] < two[1]);
+        let choice = &self.choices.tasks[task as usize];
+        let limit = if counts { Some(choice.agents.len() as u32 - choice.need) } else { Some(choice.need).filter(|_| choice.price > 0) };
+        distinct && counters.iter().all(|counter| counter.0.0 == task && counter.1 == counts) && limit.map_or(false, |limit| limit <= most)
     }
 
     /// Defines the variable "the agent satisfies this constraint".
@@ -210,14 +289,17 @@ impl Formula {
         let done = tokens.whole()?;
         ensure(done & !model.all() == 0, "there is no such stop")?;
         ensure(!model.is_plain(), "this agent needs no nodes")?;
-        let mut spot = Spot { pose, done: 0, work: 0, steps: 0, since: NEVER };
+        let mut spot = Spot { pose, done: 0, work: 0, steps: 0, since: NEVER, ends: false };
         if tokens.take("work") {
             let task = tokens.number()?;
             let stop = model.stops.iter().position(|stop| stop.task == task && stop.place == place);
             spot.work = 1 + stop.ok_or_else(|| (1, "there is no such stop".to_string()))? as u32;
             spot.steps = tokens.number()?;
         }
-        if tokens.take("since") { spot.since = tokens.number()?; }
+        if tokens.take("since") {
+            spot.since = tokens.number()?;
+            spot.ends = model.is_priced() && tokens.take("end");
+        }
         tokens.end()?;
         let variable = self.variable()?;
         let of = &mut self.agents[agent as usize];
@@ -246,6 +328,8 @@ impl Formula {
         }
         self.add_bars();
         self.add_counts();
+        self.add_limits();
+        self.add_goals();
         for &(one, two) in &self.splits {
             let sides = self.constraints.get(&one).zip(self.constraints.get(&two));
             let good = sides.map_or(false, |(one, two)| permitted(one, two));
@@ -397,8 +481,50 @@ impl Formula {
         }
     }
 
+    /// Limits of the numbers of agents that count a task, or do not count it.
+    fn add_limits(&mut self) {
+        for &(sum, most) in &self.limits {
+            let inputs = &self.sums[sum as usize];
+            let all = inputs.len() as u32;
+            if most == 0 { inputs.iter().for_each(|&input| { self.clauses.add(&[not(input)]); }); }
+            if most + 1 == all {
+                let one: Vec<Literal> = inputs.iter().copied().map(not).collect();
+                self.clauses.add(&one);
+            }
+            if most < all {
+                if let Some(&more) = self.counts.get(&(sum, 0, all, most + 1)) { self.clauses.add(&[no(more)]); }
+            }
+        }
+    }
+
+    /// A goal is used if one of the agents that may choose it rests there. Units of its price are soft literals.
+    fn add_goals(&mut self) {
+        for (&(place, unit), &variable) in &self.used {
+            if unit > 0 { self.soft.insert(yes(variable)); }
+            if let Some(&used) = self.used.get(&(place, 0)) { self.clauses.add(&[no(variable), yes(used)]); }
+            let rests = |agent: &u32| {
+                let meets = &self.agents[*agent as usize].meets;
+                meets.iter().find(|(c, _)| c.kind == Kind::Rest && c.p == place && c.s == NEVER).map(|meets| yes(meets.1))
+            };
+            let rests: Option<Vec<Literal>> = self.choices.goals[&place].agents.iter().map(rests).collect();
+            if let Some(rests) = rests { self.clauses.add(&[vec![no(variable)], rests].concat()); }
+        }
+    }
+
+    /// The end of a path decides which tasks its agent counts.
+    fn add_counters(&mut self, number: u32, model: &AgentModel) {
+        let agent = &self.agents[number as usize];
+        for (&(task, counts), &variable) in &agent.counts {
+            let stop = model.stops.iter().position(|stop| stop.task == task).expect("a stop");
+            for (node, of_node) in agent.nodes.iter().filter(|(node, _)| node.spot.ends) {
+                if (node.done >> stop & 1 == 1) != counts { self.clauses.add(&[no(variable), no(*of_node)]); }
+            }
+        }
+    }
+
     /// Adds the clauses of the paths of an agent whose least cost is `cost`. `paths`: all that cost at most `cost` + `excess`.
     pub fn add_paths(&mut self, number: u32, model: &mut AgentModel, paths: &Paths, cost: u32, excess: u32) {
+        self.add_counters(number, model);
         let (agent, plain) = (&self.agents[number as usize], model.is_plain());
         let mut of: Vec<Option<Variable>> = vec![None; paths.nodes.len()];
         let mut stray = Vec::new();

@@ -20,19 +20,32 @@ pub struct World {
 pub struct Agent {
     pub start: Place,
     pub goal: Option<Place>,
+    /// The places of which it chooses its destination; empty: it has no such choice.
+    pub goals: Vec<Place>,
     pub turn: u32,
     /// Heading at the start, heading to which the agent is turning, and completed steps of this turn. Headings are 0 to 3: N, E, S, W.
     pub looks: (u32, u32, u32),
     pub goal_heading: Option<u32>,
     /// The task that the agent executes at the start, and the completed steps of this execution.
     pub working: Option<(u32, u32)>,
+    /// The tasks that it must visit.
     pub tasks: Vec<u32>,
+    /// The tasks that it may visit.
+    pub options: Vec<u32>,
+}
+
+impl Agent {
+    pub fn has_choice(&self) -> bool { !self.goals.is_empty() || !self.options.is_empty() }
 }
 
 pub struct Task {
     pub place: Place,
     pub duration: u32,
+    /// The number of its agents that must visit it.
+    pub need: u32,
+    pub agents: Vec<u32>,
 }
+
 
 pub struct Instance {
     pub world: World,
@@ -58,6 +71,13 @@ fn require<T>(value: Option<T>, at: &str, what: &str) -> Result<T, String> {
 
 fn heading(value: &Json) -> Option<u32> {
     value.text().filter(|text| text.len() == 1).and_then(|text| HEADINGS.find(text)).map(|found| found as u32)
+}
+
+/// Parses the agents of a task: a list of ids, or "*" for all of the `count` agents.
+fn task_agents(ids: &HashMap<String, u32>, count: u32, value: Option<&Json>, at: &str) -> Result<Vec<u32>, String> {
+    if value.and_then(Json::text) == Some("*") { return Ok((0..count).collect()); }
+    let list = require(value.and_then(Json::list).filter(|ids| !ids.is_empty()), at, "agents, a list of ids")?;
+    list.iter().map(|id| require(id.text().and_then(|id| ids.get(id)).copied(), at, "ids of agents")).collect()
 }
 
 /// Parses a number that consists of digits only.
@@ -222,6 +242,13 @@ impl Names {
         let (start, looks) = self.find(world, json.get("start"), at)?;
         let mut agent = Agent { start, ..Agent::default() };
         if json.get("goal").is_some() { agent.goal = Some(self.end(world, json.get("goal"), at)?); }
+        if let Some(value) = json.get("goals") {
+            for goal in require(value.list().filter(|goals| !goals.is_empty() && agent.goal.is_none()), at, "goals, a list of places, without goal")? {
+                let goal = self.end(world, Some(goal), at)?;
+                require(Some(()).filter(|_| !agent.goals.contains(&goal)), at, "no place twice in goals")?;
+                agent.goals.push(goal);
+            }
+        }
         if json.get("motion").is_none() {
             let turns = looks.is_some() || ["turn_steps", "heading", "goal_heading"].iter().any(|key| json.get(key).is_some());
             return require(Some(agent).filter(|_| !turns), at, "motion");
@@ -234,7 +261,7 @@ impl Names {
         let good = |&(from, to, k): &(u32, u32, u32)| if k == 0 { from == to } else { (from + to) % 2 == 1 && k < agent.turn };
         agent.looks = require(looks.filter(good), at, "a heading")?;
         agent.goal_heading = json.get("goal_heading").map(|value| require(heading(value), at, "a goal_heading")).transpose()?;
-        require(Some(()).filter(|_| agent.goal_heading.is_none() || agent.goal.is_some()), at, "a goal with its heading")?;
+        require(Some(()).filter(|_| agent.goal_heading.is_none() || agent.goal.is_some() || !agent.goals.is_empty()), at, "a goal with its heading")?;
         Ok(agent)
     }
 }
@@ -327,16 +354,20 @@ impl Instance {
             let place = names.end(&world, value.get("cell"), &at)?;
             let duration = require(value.get("duration").map_or(Some(0), Json::number).filter(|&steps| steps <= 65536), &at, "a duration")?;
             ends += &format!("task {} {}", place, duration);
-            for id in require(value.get("agents").and_then(Json::list).filter(|ids| !ids.is_empty()), &at, "agents, a list of ids")? {
-                let agent = *require(id.text().and_then(|id| agent_ids.get(id)), &at, "ids of agents")?;
-                let own: &mut Vec<u32> = &mut agents[agent as usize].tasks;
+            let of = task_agents(&agent_ids, agents.len() as u32, value.get("agents"), &at)?;
+            let all = of.len() as u32;
+            let need = require(value.get("need").map_or(Some(all), Json::number).filter(|need| (1..=all).contains(need)), &at, "need, at most the number of agents")?;
+            for &agent in &of {
+                let own: &mut Agent = &mut agents[agent as usize];
+                let own = if need < all { &mut own.options } else { &mut own.tasks };
                 require(Some(()).filter(|_| own.last() != Some(&(number as u32))), &at, "no agent twice")?;
-                require(Some(()).filter(|_| own.len() < MAX_TASKS), &at, "64 tasks of an agent at most")?;
+                require(Some(()).filter(|_| need < all || own.len() < MAX_TASKS), &at, "64 tasks of an agent at most")?;
                 own.push(number as u32);
                 ends += &format!(" {}", agent);
             }
             ends.push('\n');
-            tasks.push(Task { place, duration });
+            if need < all { ends += &format!("need {}\n", need); }
+            tasks.push(Task { place, duration, need, agents: of });
         }
         for (number, value) in list("agents") {
             let agent = &mut agents[number];
@@ -344,9 +375,13 @@ impl Instance {
             let letter = |heading: u32| &HEADINGS[heading as usize..heading as usize + 1];
             let ((from, to, k), end) = (agent.looks, agent.goal_heading.map_or("-", letter));
             if agent.turn > 0 { sum += &format!("looks {} {} {} {}\n", letter(from), letter(to), k, end); }
+            if !agent.goals.is_empty() {
+                let goals: String = agent.goals.iter().map(|goal| format!(" {}", goal)).collect();
+                sum += &format!("goals{}\n", goals);
+            }
             if let Some(working) = value.get("working") {
                 let task = working.get("task").and_then(Json::text).and_then(|id| task_ids.get(id)).copied();
-                let good = |task: u32, at: &Task, done| agent.tasks.contains(&task) && at.place == agent.start && done < at.duration;
+                let good = |task: u32, at: &Task, done| (agent.tasks.contains(&task) || agent.options.contains(&task)) && at.place == agent.start && done < at.duration;
                 let found = task.zip(working.get("done").and_then(Json::number)).filter(|&(t, done)| good(t, &tasks[t as usize], done));
                 let (task, done) = require(found, &format!("agents {}", number), "work on a task where it starts")?;
                 agent.working = Some((task, done));

@@ -7,17 +7,14 @@ use crate::json::Json;
 pub struct Keys(&'static [(&'static str, Option<&'static Keys>)]);
 
 static WORKING: Keys = Keys(&[("task", None), ("done", None)]);
-static AGENT: Keys = Keys(&[("id", None), ("start", None), ("goal", None), ("motion", None), ("turn_steps", None), ("heading", None),
+static AGENT: Keys = Keys(&[("id", None), ("start", None), ("goal", None), ("goals", None), ("motion", None), ("turn_steps", None), ("heading", None),
     ("goal_heading", None), ("working", Some(&WORKING))]);
-static TASK: Keys = Keys(&[("id", None), ("cell", None), ("agents", None), ("duration", None)]);
+static TASK: Keys = Keys(&[("id", None), ("cell", None), ("agents", None), ("need", None), ("duration", None)]);
 static VERTEX: Keys = Keys(&[("id", None), ("at", None)]);
 static EDGE: Keys = Keys(&[("from", None), ("to", None), ("steps", None), ("one_way", None)]);
 
 pub static INSTANCE: Keys = Keys(&[("map", None), ("roadmap", None), ("agents", Some(&AGENT)), ("tasks", Some(&TASK))]);
 pub static ROADMAP: Keys = Keys(&[("vertices", Some(&VERTEX)), ("edges", Some(&EDGE))]);
-
-/// Keys of choices that instances leave to their agents. No rule of docs/proof.md covers them.
-const CHOICES: [&str; 2] = ["goals", "need"];
 
 /// Whether the key holds a remark for people or other programs, whose content is not checked.
 fn is_remark(key: &str) -> bool { key.starts_with('_') || key == "$schema" }
@@ -35,8 +32,7 @@ impl Keys {
         for (key, value) in members.iter().filter(|(key, _)| !is_remark(key)) {
             let within = |name: &str| if at.is_empty() { name.to_string() } else { format!("{} {}", at, name) };
             let known = self.0.iter().find(|(name, _)| name == key);
-            let wrong = if CHOICES.contains(&key.as_str()) { "certificates of instances with choices are not supported" } else { "unknown key" };
-            let known = known.ok_or_else(|| format!("{}: {}", within(&format!("{:.40?}", key)), wrong))?;
+            let known = known.ok_or_else(|| format!("{}: unknown key", within(&format!("{:.40?}", key))))?;
             known.1.map_or(Ok(()), |keys| keys.check(value, &within(key)))?;
         }
         Ok(())

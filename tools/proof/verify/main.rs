@@ -10,6 +10,7 @@ mod json;
 mod keys;
 mod orders;
 mod paths;
+mod priced;
 mod prices;
 mod proof;
 mod reader;

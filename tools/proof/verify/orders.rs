@@ -89,7 +89,7 @@ impl Orders<'_> {
         self.posts.iter().enumerate().map(|(post, &(stop, _))| (post, stop)).filter(move |&(_, stop)| open >> stop & 1 == 1)
     }
 
-    fn leg(&self, from: u32, to: usize, stop: usize) -> u32 {
+    pub fn leg(&self, from: u32, to: usize, stop: usize) -> u32 {
         self.legs[from as usize * self.posts.len() + to] + self.durations[stop]
     }
 }
@@ -117,7 +117,7 @@ const UNREACHABLE: i64 = 1 << 50;
 fn whole(value: i64) -> u32 { ((value.max(0) + 63) / 64).min(i64::from(NEVER) - 1) as u32 }
 
 /// Returns the stops of a set of bits in ascending order.
-fn stops(mut set: u64) -> impl Iterator<Item = usize> {
+pub fn stops(mut set: u64) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let stop = set.trailing_zeros() as usize;
         set &= set.wrapping_sub(1);

@@ -13,6 +13,8 @@ pub struct Spot {
     pub work: u32,
     pub steps: u32,
     pub since: u32,
+    /// Of an agent with prices: the path ends here.
+    pub ends: bool,
 }
 
 pub struct Node {
@@ -34,20 +36,22 @@ pub struct Paths {
     next: Vec<u32>,
     pub starts: Vec<u32>,
     index: Map<(u32, Spot), u32>,
+    is_priced: bool,
 }
 
 impl Paths {
     /// Returns the graph of all paths that cost at most `cap`. None: the costs to go are too expensive to compute.
     pub fn of(model: &mut AgentModel, cap: u32) -> Option<Paths> {
         if !model.raise_limit(cap) { return None; }
-        let mut paths = Paths { nodes: Vec::new(), next: Vec::new(), starts: Vec::new(), index: Map::default() };
-        for spot in starts(model) { if let Some(start) = paths.reach(model, spot, 0, cap) { paths.starts.push(start); } }
+        let mut paths = Paths { nodes: Vec::new(), next: Vec::new(), starts: Vec::new(), index: Map::default(), is_priced: model.is_priced() };
+        let spots = starts(model);
+        for spot in with_ends(model, spots) { if let Some(start) = paths.reach(model, spot, 0, cap) { paths.starts.push(start); } }
         let (mut at, mut found) = (0, Vec::new());
         while at < paths.nodes.len() {
             let (spot, time) = (paths.nodes[at].spot, paths.nodes[at].time);
             let (first, mut complete) = (paths.next.len() as u32, true);
-            steps(model, spot, time, &mut found);
-            for step in found.drain(..) {
+            if !spot.ends { steps(model, spot, time, &mut found); }
+            for step in with_ends(model, std::mem::take(&mut found)) {
                 match paths.reach(model, step, time + 1, cap) {
                     Some(next) => paths.next.push(next),
                     None => complete &= is_dead(model, &step),
@@ -65,7 +69,7 @@ impl Paths {
 
     /// Returns what a plain agent does in a pose: without stops.
     pub fn plain(&self, pose: u32, since: u32) -> Option<Spot> {
-        self.nodes.first().map(|node| Spot { pose, since, ..node.spot })
+        self.nodes.first().map(|node| Spot { pose, since, ends: self.is_priced && since < NEVER, ..node.spot })
     }
 
     /// Returns the index of a node.
@@ -77,8 +81,9 @@ impl Paths {
         let remains = remains(model, &spot);
         if remains >= NEVER || time + remains > cap || (spot.since < NEVER && is_dead(model, &spot)) { return None; }
         let number = self.nodes.len() as u32;
-        let ends = spot.since < NEVER && remains == 0 && model.done(spot.done) == model.all();
-        self.nodes.push(Node { spot, time, least: NEVER, ends, complete: false, next: (0, 0) });
+        let ends = if self.is_priced { spot.ends } else { spot.since < NEVER && remains == 0 && model.done(spot.done) == model.all() };
+        let least = if ends { time + remains } else { NEVER };
+        self.nodes.push(Node { spot, time, least, ends, complete: false, next: (0, 0) });
         self.index.insert((time, spot), number);
         Some(number)
     }
@@ -87,7 +92,7 @@ impl Paths {
         for at in (0..self.nodes.len()).rev() {
             let node = &self.nodes[at];
             let next = self.next(node).iter().map(|&next| self.nodes[next as usize].least);
-            let least = if node.ends { node.time } else { next.clone().min().unwrap_or(NEVER) };
+            let least = if node.ends { node.least } else { next.clone().min().unwrap_or(NEVER) };
             let complete = node.complete && next.clone().all(|least| least <= cap);
             self.nodes[at].complete = complete;
             self.nodes[at].least = if least <= cap { least } else { NEVER };
@@ -99,7 +104,15 @@ fn duration(model: &AgentModel, spot: &Spot) -> u32 { if spot.work == 0 { 0 } el
 
 fn is_executing(model: &AgentModel, spot: &Spot) -> bool { spot.steps < duration(model, spot) }
 
+/// Of an agent with prices, a path that has arrived on its last place may end there, or continue with a task execution.
+fn with_ends(model: &AgentModel, spots: Vec<Spot>) -> Vec<Spot> {
+    let ending: Vec<Spot> = spots.iter().filter(|spot| model.is_priced() && spot.since < NEVER).map(|&spot| Spot { ends: true, ..spot }).collect();
+    spots.into_iter().chain(ending).collect()
+}
+
+/// Returns a lower bound on the remaining cost; for a spot where a path with prices ends, its price.
 fn remains(model: &mut AgentModel, spot: &Spot) -> u32 {
+    if spot.ends { return model.skipped(model.done(spot.done)).saturating_add(model.price_of_rest(model.poses.place(spot.pose))).min(NEVER); }
     if !is_executing(model, spot) { return model.remains(spot.done, spot.pose); }
     let done = model.number(model.done(spot.done) | 1 << (spot.work - 1));
     duration(model, spot) - spot.steps + model.remains(done, spot.pose)
@@ -109,14 +122,31 @@ fn remains(model: &mut AgentModel, spot: &Spot) -> u32 {
 /// must still go elsewhere.
 fn is_dead(model: &AgentModel, spot: &Spot) -> bool {
     let place = model.poses.place(spot.pose);
-    spot.since < NEVER && (model.all() & !model.done(spot.done) & !model.stops_at(place) != 0 || !model.may_rest_on(place))
+    if spot.since == NEVER { return false; }
+    if model.is_priced() { return is_dead_with_prices(model, spot); }
+    model.all() & !model.done(spot.done) & !model.stops_at(place) != 0 || !model.may_rest_on(place)
+}
+
+/// As is_dead(), for an agent with prices that has made its last arrival.
+fn is_dead_with_prices(model: &AgentModel, spot: &Spot) -> bool {
+    let (place, done) = (model.poses.place(spot.pose), model.done(spot.done));
+    let here = model.stops_at(place) & !done;
+    if model.price_of_rest(place) == NEVER || model.skipped(done | here) == NEVER { return true; }
+    if spot.ends { is_executing(model, spot) || model.skipped(done) == NEVER } else { here & !model.has_no_duration(here) == 0 }
+}
+
+/// Returns the sets of stops that may be done after an arrival on a place. The agent counts a stop without duration on arrival, or
+/// not at all; it counts it surely if the stop has no price.
+fn counted(model: &AgentModel, done: u64, place: u32) -> Vec<u64> {
+    let here = model.has_no_duration(model.stops_at(place) & !done);
+    if model.passable(here) == 0 { vec![done | here] } else { vec![done, done | here] }
 }
 
 fn starts(model: &mut AgentModel) -> Vec<Spot> {
     let (pose, place) = (model.start, model.poses.place(model.start));
-    let done = model.number(model.has_no_duration(model.stops_at(place)));
     let (work, steps) = model.working.map_or((0, 0), |(stop, end)| (stop + 1, model.stops[stop as usize].duration - end));
-    [NEVER, 0].iter().map(|&since| Spot { pose, done, work, steps, since }).collect()
+    let done: Vec<u32> = counted(model, 0, place).into_iter().map(|done| model.number(done)).collect();
+    [NEVER, 0].iter().flat_map(|&since| done.iter().map(move |&done| Spot { pose, done, work, steps, since, ends: false })).collect()
 }
 
 /// Appends to `found` what the agent may do one step later.
@@ -141,9 +171,11 @@ fn steps(model: &mut AgentModel, spot: Spot, time: u32, found: &mut Vec<Spot>) {
         if to == place {
             found.push(after);
         } else if spot.since == NEVER {
-            let done = model.number(done | model.has_no_duration(model.stops_at(to)));
-            found.push(Spot { done, ..after });
-            found.push(Spot { done, since: time + 1, ..after });
+            for done in counted(model, done, to) {
+                let done = model.number(done);
+                found.push(Spot { done, ..after });
+                found.push(Spot { done, since: time + 1, ..after });
+            }
         }
     }
 }

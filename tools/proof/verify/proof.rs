@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //! Verifies a certificate: lemmas, the theorem, and the rules of their proofs (docs/proof.md, sections 3 and 4).
-use crate::agent::{AgentModel, Poses, NEVER};
-use crate::formula::Formula;
+use crate::agent::{AgentModel, AgentPrices, Poses, Rest, NEVER};
+use crate::formula::{Choices, Formula, GoalChoice, TaskChoice};
 use crate::instance::Instance;
 use crate::joint::{Joint, Layers};
 use crate::paths::Paths;
@@ -11,8 +11,19 @@ use crate::rules::{Chains, Constraint, Kind, Rules};
 use crate::search::{surely_satisfies, Path, Search};
 use crate::successors::Successors;
 use crate::tokens::{ensure, unreadable, Fault, Tokens};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
+
+/// The greatest number of stops of an agent with a choice.
+const MAX_STOPS: usize = 63;
+/// The greatest price of a choice. Prices of agents are then far below NEVER.
+const MAX_PRICE: u32 = 1 << 20;
+
+/// Parses the price of a choice.
+fn price(tokens: &mut Tokens) -> Result<u32, Fault> {
+    let price = tokens.number()?;
+    ensure((1..=MAX_PRICE).contains(&price), "expected a price from 1 to 2^20").map(|_| price)
+}
 
 /// The bound `inf`. No sum of costs reaches it.
 const INFINITE: u64 = u64::MAX;
@@ -51,6 +62,11 @@ pub struct Verifier {
     /// For each agent its known costs, with ascending numbers of constraints.
     known: Vec<Vec<Known>>,
     nodes: u64,
+    has_choices: bool,
+    /// The goals of agents without a choice of goals.
+    goals: HashSet<u32>,
+    /// The least price of each agent with a choice, once the prices are known.
+    least_prices: Vec<Option<u32>>,
     /// File to which the clauses of a formula are written.
     pub clauses: Option<String>,
 }
@@ -63,7 +79,9 @@ impl Verifier {
         let (constraints, known, models) = ((0..agents).map(|_| vec![]), (0..agents).map(|_| vec![]), (0..agents).map(|_| None));
         let (constraints, known, models) = (constraints.collect(), known.collect(), models.collect());
         let (poses, search, lemmas, trail, present) = Default::default();
-        Verifier { instance, chains, poses, models, rules, search, lines, following: true, lemmas, trail, constraints, present, known, nodes: 0, clauses: None }
+        let (has_choices, least_prices) = (instance.agents.iter().any(|agent| agent.has_choice()), vec![None; agents]);
+        let goals = instance.agents.iter().filter_map(|agent| agent.goal).collect();
+        Verifier { has_choices, goals, least_prices, instance, chains, poses, models, rules, search, lines, following: true, lemmas, trail, constraints, present, known, nodes: 0, clauses: None }
     }
 
     pub fn statistics(&self) -> String {
@@ -137,6 +155,14 @@ impl Verifier {
         })
     }
 
+    /// Parses a constraint of a formula: also `A rest P inf`.
+    fn constraint_of_formula(&mut self, text: &str, of: &Lemma) -> Result<Constraint, Fault> {
+        match text.strip_suffix(" inf").filter(|start| start.split(' ').nth(1) == Some("rest")) {
+            Some(start) => Ok(Constraint { s: NEVER, e: NEVER, ..self.constraint(&format!("{} 0", start), of)? }),
+            None => self.constraint(text, of),
+        }
+    }
+
     fn constraint(&mut self, text: &str, of: &Lemma) -> Result<Constraint, Fault> {
         let mut tokens = Tokens::of(text);
         let agent = tokens.number()?;
@@ -197,13 +223,16 @@ impl Verifier {
         loop {
             self.nodes += 1;
             let (rule, rest) = line.split_once(' ').unwrap_or((line.as_str(), ""));
+            let known = ["split", "later", "leaf", "joint", "prices", "formula"].contains(&rule);
+            ensure(!known || !self.has_choices, "an instance with choices requires the rule 'choices'")?;
             let sides = match rule {
                 "split" => Some(self.split(rest, of)?),
                 "later" => Some(self.later(rest, of)?),
                 "leaf" => self.leaf(rest, of).map(|_| None)?,
                 "joint" if rest.is_empty() => self.joint(of).map(|_| None)?,
                 "prices" if rest.is_empty() => self.prices(of).map(|_| None)?,
-                "formula" if rest.is_empty() => self.formula(of).map(|_| None)?,
+                "formula" if rest.is_empty() => self.formula(of, Formula::new(of.agents.len())).map(|_| None)?,
+                "choices" if rest.is_empty() => self.choices(of).map(|_| None)?,
                 _ => return Err(unreadable("expected a rule")),
             };
             let next = if let Some((one, two)) = sides {
@@ -363,20 +392,104 @@ impl Verifier {
 
     /// Returns the least cost of an agent without constraints, as exactly as is affordable. NEVER: it has no path.
     fn least_cost(&mut self, agent: u32) -> u32 {
+        if let Some(price) = self.least_prices[agent as usize] { return price; }
         let mut cost = self.cost(agent, true);
         while cost < NEVER && self.raise_limit(agent) { cost = self.cost(agent, true); }
         cost
     }
 
-    fn formula(&mut self, of: &Lemma) -> Result<(), Fault> {
+    /// Reads the prices of choices, and the formula that follows.
+    fn choices(&mut self, of: &Lemma) -> Result<(), Fault> {
+        ensure(self.has_choices, "the instance has no choices")?;
+        ensure(of.agents.len() == self.models.len(), "choices require all agents, without constraints")?;
+        for agent in 0..self.models.len() { self.require_rules(agent)?; }
+        let mut choices = self.choices_of_instance();
+        loop {
+            let line = self.line()?;
+            if line == "formula" { break; }
+            let mut tokens = Tokens::of(&line);
+            match tokens.token()? {
+                "task" => {
+                    let task = &mut choices.tasks[tokens.index(self.instance.tasks.len(), "task")? as usize];
+                    ensure((task.need as usize) < task.agents.len() && task.price == 0, "the task has no choice of agents, or has a price")?;
+                    task.price = price(&mut tokens)?;
+                }
+                "goal" => {
+                    let place = tokens.index(self.instance.world.links.len(), "place")?;
+                    let goal = choices.goals.get_mut(&place).filter(|goal| goal.price == 0);
+                    let goal = goal.ok_or_else(|| (1, "no agent chooses this goal, or it has a price".to_string()))?;
+                    goal.price = price(&mut tokens)?;
+                }
+                _ => return Err(unreadable("expected a price of a task or goal, or 'formula'")),
+            }
+            tokens.end()?;
+        }
+        for agent in 0..self.models.len() { self.set_prices(agent, &choices)?; }
+        let mut formula = Formula::new(self.models.len());
+        formula.choices = choices;
+        self.formula(of, formula)
+    }
+
+    /// Refuses an agent with a choice that the rule `choices` does not cover.
+    fn require_rules(&self, number: usize) -> Result<(), Fault> {
+        let (agent, tasks) = (&self.instance.agents[number], &self.instance.tasks);
+        if !agent.has_choice() { return Ok(()); }
+        let place = |task: &u32| tasks[*task as usize].place;
+        let shares = |option: &u32| {
+            let all = agent.tasks.iter().chain(&agent.options);
+            all.filter(|&task| task != option).any(|task| place(task) == place(option))
+        };
+        let refuse = |is_covered: bool, what: &str| ensure(is_covered, format!("agent {} has a choice and {}", number, what));
+        refuse(agent.turn == 0, "needs time to turn")?;
+        refuse(agent.working.map_or(true, |work| agent.tasks.contains(&work.0)), "executes a task of its choice at the start")?;
+        refuse(agent.tasks.len() + agent.options.len() <= MAX_STOPS, "more than 63 tasks")?;
+        refuse(!agent.options.iter().any(shares), "several tasks on one place")?;
+        let has_goal = agent.goal.is_some() || !agent.goals.is_empty();
+        refuse(has_goal || agent.tasks.is_empty(), "no goal, but must visit tasks")
+    }
+
+    fn choices_of_instance(&self) -> Choices {
+        let tasks = self.instance.tasks.iter().map(|task| TaskChoice { agents: task.agents.clone(), need: task.need, price: 0 });
+        let mut choices = Choices { tasks: tasks.collect(), ..Choices::default() };
+        for (number, agent) in self.instance.agents.iter().enumerate() {
+            for &goal in agent.goals.iter().filter(|&&goal| !self.is_goal(goal)) {
+                choices.goals.entry(goal).or_insert_with(GoalChoice::default).agents.push(number as u32);
+            }
+        }
+        choices
+    }
+
+    /// Returns whether a place is the goal of an agent without a choice of goals. No other agent can end there.
+    fn is_goal(&self, place: u32) -> bool { self.goals.contains(&place) }
+
+    fn set_prices(&mut self, number: usize, choices: &Choices) -> Result<(), Fault> {
+        if !self.instance.agents[number].has_choice() { return Ok(()); }
+        let is_option = |task: u32| choices.tasks[task as usize].agents.len() > choices.tasks[task as usize].need as usize;
+        self.model(number as u32);
+        let agent = &self.instance.agents[number];
+        let model = self.models[number].as_mut().expect("made above");
+        let skip = model.stops.iter().map(|stop| if is_option(stop.task) { choices.tasks[stop.task as usize].price } else { NEVER });
+        let priced = |goal: &u32| choices.goals.get(goal).map(|choice| (*goal, choice.price));
+        let rest = match agent.goal {
+            Some(goal) => Rest::On(vec![(goal, 0)]),
+            None if agent.goals.is_empty() => Rest::Anywhere,
+            None => Rest::On(agent.goals.iter().filter_map(priced).collect()),
+        };
+        let prices = AgentPrices { skip: skip.collect(), rest };
+        let least = model.set_prices(prices).ok_or_else(|| (1, format!("agent {} has too many sets of tasks that pay off", number)))?;
+        self.least_prices[number] = Some(least);
+        Ok(())
+    }
+
+    fn formula(&mut self, of: &Lemma, mut formula: Formula) -> Result<(), Fault> {
         let (agents, places) = (self.models.len(), self.instance.world.links.len());
         ensure(of.agents.len() == agents && self.trail.is_empty(), "a formula requires all agents, without constraints")?;
-        let mut formula = Formula::new(agents);
+        let bound = of.bound.saturating_add(formula.choices.constant());
         let mut line = self.line()?;
         loop {
             let (name, rest) = line.split_once(' ').unwrap_or((line.as_str(), ""));
             match name {
-                "meets" => formula.meets(self.constraint(rest, of)?)?,
+                "meets" => formula.meets(self.constraint_of_formula(rest, of)?)?,
                 "node" => {
                     let mut tokens = Tokens::rest(rest);
                     let agent = tokens.index(agents, "agent")?;
@@ -389,8 +502,8 @@ impl Verifier {
         }
         let costs: Vec<u32> = (0..agents as u32).map(|agent| self.least_cost(agent)).collect();
         let sum: u64 = costs.iter().map(|&cost| u64::from(cost)).sum();
-        let proven = costs.contains(&NEVER) || sum >= of.bound;
-        if !proven { self.add_clauses(&mut formula, &costs, Some(of.bound - 1 - sum).filter(|_| of.bound < INFINITE))?; }
+        let proven = costs.contains(&NEVER) || sum >= bound;
+        if !proven { self.add_clauses(&mut formula, &costs, Some(bound - 1 - sum).filter(|_| bound < INFINITE))?; }
         while line != "end" {
             let (name, rest) = line.split_once(' ').unwrap_or((line.as_str(), ""));
             let known = proven || formula.step(name, &mut Tokens::rest(rest))?;
@@ -398,18 +511,20 @@ impl Verifier {
             line = self.line()?;
         }
         let raised = formula.proven();
-        let proven = proven || raised.map_or(true, |raised| sum + raised >= of.bound);
-        ensure(proven, format!("the formula proves {}; expected {}", sum + raised.unwrap_or(0), text(of.bound)))
+        let proven = proven || raised.map_or(true, |raised| sum + raised >= bound);
+        let shown = (sum + raised.unwrap_or(0)).saturating_sub(formula.choices.constant());
+        ensure(proven, format!("the formula proves {}; expected {}", shown, text(of.bound)))
     }
 
     /// Adds the clauses that hold for all plans in which the sum of the excesses over `costs` is at most `excess` (None: for all plans).
     fn add_clauses(&mut self, formula: &mut Formula, costs: &[u32], excess: Option<u64>) -> Result<(), Fault> {
         formula.close(excess, &self.chains, |one, two| self.permits(one, two))?;
         for (agent, level) in formula.levels() {
-            let (cost, (_, successors)) = (costs[agent as usize], self.successors(agent));
-            let paths = Paths::of(successors.model, cost + level);
+            let cost = costs[agent as usize];
+            let model = if self.least_prices[agent as usize].is_some() { self.model(agent) } else { self.successors(agent).1.model };
+            let paths = Paths::of(model, cost + level);
             let paths = paths.ok_or_else(|| (1, format!("orders of agent {} with many tasks, too far from the best one", agent)))?;
-            formula.add_paths(agent, successors.model, &paths, cost, level);
+            formula.add_paths(agent, model, &paths, cost, level);
         }
         let written = self.clauses.as_ref().map_or(Ok(()), |file| std::fs::write(file, formula.dimacs()));
         written.map_err(|error| unreadable(format!("cannot write the clauses: {}", error)))
