@@ -24,8 +24,12 @@
 // the place, so its visit can be one of the n_t that are counted.
 #include "assignment/priced_instance.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "assignment/goal_choice.h"
@@ -132,6 +136,8 @@ class Reformulation {
       if (surplus == 0) continue;
       const Time multiplier = price_of(priced.instance, task);
       Prices::Need& made = prices.needs.emplace_back();
+      made.task = task;
+      made.price = multiplier;
       made.count = need;
       made.is_exact = multiplier > 0;
       for (const AgentIndex agent : of.agents)
@@ -253,21 +259,63 @@ AgentPlan agent_plan_of(const Instance& instance, const PricedInstance& priced, 
   return plan;
 }
 
+std::optional<std::vector<RouteBound::Choices>> all_choices(const Instance& instance) {
+  std::vector<RouteBound::Choices> choices;
+  for (const Agent& agent : instance.agents()) choices.push_back({agent.options, agent.goals});
+  return choices;
+}
+
+// True if the agent has an optional task on the place of another one.
+bool shares_places(const Instance& instance, const Agent& agent) {
+  std::set<Place> places;
+  for (const TaskIndex task : agent.tasks) places.insert(instance.task(task).cell);
+  return std::ranges::any_of(agent.options, [&](TaskIndex task) {
+    return !places.insert(instance.task(task).cell).second;
+  });
+}
+
+bool starts_with_option(const Instance& instance, AgentIndex index) {
+  const auto begun = task_at_start(instance, index);
+  return begun && !instance.task(*begun).needs_all();
+}
+
 }  // namespace
+
+std::optional<Choice> find_uncertified_choice(const Instance& instance) {
+  for (AgentIndex index = 0; index < instance.agent_count(); ++index) {
+    const Agent& agent = instance.agent(index);
+    if (!agent.has_choice()) continue;
+    const auto refused = [&](std::string_view what, std::string_view expected) {
+      return Choice{fmt::format("agents/{}", index),
+                    fmt::format("agent '{}' has a choice and {}", agent.id, what),
+                    std::string(expected)};
+    };
+    if (agent.kind > 0) return refused("needs time to turn", "agents that turn freely");
+    if (starts_with_option(instance, index))
+      return refused("executes an optional task at the start", "a task that it must visit");
+    if (std::ssize(agent.tasks) + std::ssize(agent.options) > kMaxCertifiedTasks)
+      return refused(fmt::format("more than {} tasks", kMaxCertifiedTasks), "fewer tasks");
+    if (shares_places(instance, agent))
+      return refused("an optional task on the place of another one", "distinct places");
+    if (!agent.has_destination() && !agent.tasks.empty())
+      return refused("must visit tasks, but has no goal", "an agent with a goal");
+  }
+  return std::nullopt;
+}
 
 bool can_price_choices(const Instance& instance) {
   for (AgentIndex index = 0; index < instance.agent_count(); ++index) {
     if (!instance.agent(index).has_choice()) continue;
-    const auto begun = task_at_start(instance, index);
-    if (begun && !instance.task(*begun).needs_all()) return false;
+    if (starts_with_option(instance, index)) return false;
   }
   return true;
 }
 
-Pricing price_choices(const Instance& instance, RouteBound& bound, Cost cutoff,
+Pricing price_choices(const Instance& instance, RouteBound& bound, Cost cutoff, Fixing fixing,
                       const Limits& limits, std::optional<PricedInstance>& priced) {
   if (!can_price_choices(instance)) return Pricing::kNotPossible;
-  auto choices = bound.choices_below(cutoff, limits);
+  auto choices =
+      fixing == Fixing::kNone ? all_choices(instance) : bound.choices_below(cutoff, limits);
   if (!choices) return Pricing::kNotPossible;
   auto multipliers = bound.rounded(limits);
   if (!multipliers) return Pricing::kNotPossible;

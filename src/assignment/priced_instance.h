@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "assignment/route_bound.h"
+#include "model/choices.h"
 #include "model/instance.h"
 #include "model/limits.h"
 #include "model/omega.h"
@@ -25,6 +26,13 @@ struct PricedInstance {
   Prices prices;
 };
 
+// Returns a choice that certificates do not cover (docs/proof.md, "choices"); nullopt: they cover
+// all. Such a choice is that of an agent that needs time to turn, that starts while it executes an
+// optional task, that has more than kMaxCertifiedTasks tasks or an optional task on the place of
+// another one, or that has no destination and must visit a task.
+inline constexpr int kMaxCertifiedTasks = 63;
+std::optional<Choice> find_uncertified_choice(const Instance& instance);
+
 // Returns false if no choices of the instance can be priced, because an agent starts while it
 // executes an optional task.
 bool can_price_choices(const Instance& instance);
@@ -36,11 +44,14 @@ enum class Pricing : std::uint8_t {
   kNotPossible,  // see price_choices()
 };
 
+// kNone: all choices are left, as in a certificate.
+enum class Fixing : std::uint8_t { kByReducedCosts, kNone };
+
 // Makes the reformulation for plans that cost less than `cutoff`. The lower the cutoff, the fewer
-// choices are left. kNotPossible: can_price_choices() is false; or an agent with a choice would
-// have more than kMaxTasksPerAgent tasks; or it starts at work and has a task without a duration on
-// its start; or `bound` has no result; or a limit is reached.
-Pricing price_choices(const Instance& instance, RouteBound& bound, Cost cutoff,
+// choices are left, unless `fixing` is kNone. kNotPossible: can_price_choices() is false; or an
+// agent with a choice would have more than kMaxTasksPerAgent tasks; or it starts at work and has a
+// task without a duration on its start; or `bound` has no result; or a limit is reached.
+Pricing price_choices(const Instance& instance, RouteBound& bound, Cost cutoff, Fixing fixing,
                       const Limits& limits, std::optional<PricedInstance>& priced);
 
 // Makes a plan of `instance` of paths in `priced.instance`. Precondition: the paths have no

@@ -180,7 +180,7 @@ bool CoreSearch::add_unused_goals() {
   for (const PathModel::UnusedGoal& goal : unused) {
     goals_.push_back(goal.agents);
     for (Time i = 0; i < goal.price; ++i) {
-      const Literal literal = model_.solver().new_variable(FormulaKind::kMeets, {});
+      const Literal literal = model_.solver().new_variable(FormulaKind::kUsed, {goal.place, i + 1});
       model_.solver().add({-literal, goal.is_used});
       active_.push_back({.literal = literal, .goal = static_cast<std::int32_t>(goals_.size()) - 1});
     }

@@ -112,10 +112,12 @@ Literal PathClauses::literal_of(PathGraph::Node node) {
 
 Literal PathClauses::new_node_variable(PathGraph::Node node) {
   const PathGraph::Position at = graph_.position(node);
+  const bool is_priced_end = graph_.has_prices() && graph_.is_final(node);
   return solver_.new_variable(
       FormulaKind::kNode,
       {agent_, graph_.time(node), graph_.place(node), at.pose,
-       static_cast<std::int64_t>(at.stops_done), at.stop, at.steps_done, graph_.arrival(node)});
+       static_cast<std::int64_t>(at.stops_done), at.stop < 0 ? at.stop : graph_.task_of(at.stop),
+       at.steps_done, graph_.arrival(node), is_priced_end ? 1 : 0});
 }
 
 Literal PathClauses::new_presence_variable(const Presence& presence) {
@@ -173,9 +175,8 @@ Literal PathClauses::satisfies(const Constraint& constraint) {
 Literal PathClauses::counts(int stop, bool counts) {
   for (const CountLiteral& known : counts_)
     if (known.stop == stop && known.counts == counts) return known.literal;
-  const auto kind = counts ? ConstraintKind::kStopIs : ConstraintKind::kStopIsNot;
-  const Literal literal = solver_.new_variable(
-      FormulaKind::kMeets, {agent_, kNoCell, stop, 0, kNever, static_cast<std::int64_t>(kind)});
+  const Literal literal = solver_.new_variable(counts ? FormulaKind::kCounts : FormulaKind::kSkips,
+                                               {agent_, graph_.task_of(stop)});
   counts_.push_back({stop, counts, literal});
   for (PathGraph::Node node = 0; node < std::ssize(nodes_); ++node)
     if (nodes_[node] != 0 && graph_.is_final(node)) restrict_end(counts_.back(), node);

@@ -64,6 +64,11 @@ class PathGraph {
   // The stops that the agent has not counted.
   StopSet stops_left(Node node) const { return left_of_stages_[nodes_[node].stage]; }
   StopSet all_stops() const { return goals_.stops().all(); }
+  bool has_prices() const { return goals_.stops().has_prices(); }
+  TaskIndex task_of(int stop) const {
+    const AgentStops& stops = goals_.stops();
+    return stops.instance().agent(stops.agent()).stops[static_cast<std::size_t>(stop)];
+  }
   // True if no two nodes have the same place, time and arrival.
   bool has_one_node_per_presence() const {
     return world_.kind(goals_.stops().start()) == 0 && goals_.stops().count() == 0;

@@ -64,7 +64,11 @@ PathModel::PathModel(const Problem& problem, const AgentStopsCache& stops, Techn
       solver_(limits, proof),
       paths_(static_cast<std::size_t>(problem.instance.agent_count())),
       least_sum_(prices ? -prices->constant : 0) {
-  GROVE_CHECK(proof == nullptr || prices == nullptr, "proofs do not contain prices");
+  if (prices_ == nullptr) return;
+  for (const Prices::Need& need : prices_->needs)
+    if (need.price > 0) solver_.log(FormulaKind::kTask, {need.task, need.price});
+  for (const AgentPrices::Goal& goal : prices_->goals)
+    solver_.log(FormulaKind::kGoal, {goal.place, goal.price});
 }
 
 PathModel::Outcome PathModel::plan_next_agent() {
@@ -278,13 +282,19 @@ std::int64_t PathModel::add_needs() {
 }
 
 void PathModel::add_at_most(std::vector<Literal> literals, std::size_t count) {
+  const auto log = [&](std::int64_t sum) {
+    solver_.log(FormulaKind::kAtMost, {sum, static_cast<std::int64_t>(count)});
+  };
   if (count == 0) {
+    log(solver_.log_sum(literals));
     for (const Literal literal : literals) solver_.add({-literal});
   } else if (count + 1 == literals.size()) {
+    log(solver_.log_sum(literals));
     for (Literal& literal : literals) literal = -literal;
     solver_.add(literals);
   } else if (count < literals.size()) {
     Totalizer totalizer(solver_, literals);
+    log(totalizer.number());
     solver_.add({-totalizer.at_least(count + 1)});
   }
 }
@@ -307,7 +317,8 @@ std::vector<PathModel::UnusedGoal> PathModel::take_unused_goals() {
     };
     if (is_goal_returned_[i] || std::ranges::any_of(payers, ends_there)) continue;
     is_goal_returned_[i] = true;
-    UnusedGoal found{goal.price, solver_.new_variable(FormulaKind::kMeets, {}), payers};
+    UnusedGoal found{goal.place, goal.price,
+                     solver_.new_variable(FormulaKind::kUsed, {goal.place, 0}), payers};
     std::vector<Literal> clause{-found.is_used};
     for (const AgentIndex agent : payers)
       clause.push_back(

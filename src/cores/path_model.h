@@ -41,7 +41,7 @@ class PathModel {
   };
 
   // All arguments must outlive this object, except `stops`, which is copied. `prices`: those of
-  // `stops`; nullptr: none. Prices cannot be combined with a proof.
+  // `stops`; nullptr: none.
   PathModel(const Problem& problem, const AgentStopsCache& stops, Techniques techniques,
             const Limits& limits, ProofLog* proof = nullptr, const Prices* prices = nullptr);
 
@@ -69,6 +69,7 @@ class PathModel {
   // those that were returned before. Each of them adds its price to the cost of the plan, unless
   // `is_used` is true, a literal that depends on `agents`.
   struct UnusedGoal {
+    Place place;
     Time price;
     Literal is_used;
     std::vector<AgentIndex> agents;

@@ -2,6 +2,7 @@
 #include "engine/all_assignments.h"
 
 #ifdef GROVE_WITH_CADICAL
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <utility>
@@ -37,6 +38,7 @@ class AllAssignmentsCores : public AllAssignmentsSearch {
   AllAssignmentsCores(const Instance& instance, PricedInstance priced, const SolveOptions& options,
                       const Limits& limits)
       : limits_(limits),
+        proof_(options.proof),
         priced_(std::move(priced)),
         problem_(priced_.instance, limits, options.threads),
         stops_(priced_.instance, problem_.distances, &priced_.prices) {
@@ -44,19 +46,15 @@ class AllAssignmentsCores : public AllAssignmentsSearch {
     const auto make_plan = [this, &instance](const std::vector<CountedPath>& paths) {
       return checked_plan(instance, plan_of(instance, priced_, paths));
     };
-    search_ = std::make_unique<CoreSearch>(problem_, stops_, techniques_of(options),
-                                           at_most_a_quarter(kMaxBytes, limits), limits, nullptr, 0,
-                                           PricedChoices{&priced_.prices, make_plan});
+    search_ = std::make_unique<CoreSearch>(
+        problem_, stops_, techniques_of(options), at_most_a_quarter(kMaxBytes, limits), limits,
+        options.proof, 0, PricedChoices{&priced_.prices, make_plan});
   }
 
   bool run(Cost cutoff, std::int64_t effort, const std::function<void()>& after_step) override {
-    if (!search_) return false;
-    const std::int64_t end = search_->work() + effort;
-    while (search_->work() < end && !limits_.stop_requested()) {
-      if (search_->step(cutoff) != CoreSearch::Outcome::kWorking) return false;
-      if (after_step) after_step();
-    }
-    return true;
+    const bool is_open = search_ && advance(cutoff, effort, after_step);
+    log_bound(cutoff);
+    return is_open;
   }
   Cost lower_bound() const override {
     return search_ && search_->is_set_up() ? search_->lower_bound() : 0;
@@ -70,7 +68,27 @@ class AllAssignmentsCores : public AllAssignmentsSearch {
   }
 
  private:
+  // Returns false if the search is over.
+  bool advance(Cost cutoff, std::int64_t effort, const std::function<void()>& after_step) {
+    const std::int64_t end = search_->work() + effort;
+    while (search_->work() < end && !limits_.stop_requested()) {
+      if (search_->step(cutoff) != CoreSearch::Outcome::kWorking) return false;
+      if (after_step) after_step();
+    }
+    return true;
+  }
+
+  // A bound of kInfiniteCost: there is no plan.
+  void log_bound(Cost cutoff) {
+    const Cost proven = std::min(lower_bound(), cutoff);
+    if (proof_ == nullptr || proven <= logged_) return;
+    logged_ = proven;
+    proof_->formula_bound(proven);
+  }
+
   const Limits& limits_;
+  ProofLog* const proof_;
+  Cost logged_ = 0;
   const PricedInstance priced_;
   const Problem problem_;
   const AgentStopsCache stops_;
@@ -86,10 +104,12 @@ std::unique_ptr<AllAssignmentsSearch> AllAssignmentsSearch::make(const Instance&
                                                                  const Limits& limits) {
   if (!techniques_of(options).has(Technique::kCores)) return nullptr;
   std::optional<PricedInstance> priced;
-  switch (price_choices(instance, bound, cutoff, limits, priced)) {
+  const Fixing fixing = options.proof ? Fixing::kNone : Fixing::kByReducedCosts;
+  switch (price_choices(instance, bound, cutoff, fixing, limits, priced)) {
     case Pricing::kNotPossible:
       return nullptr;
     case Pricing::kNoPlan:
+      if (options.proof) return nullptr;  // certificates do not contain this reasoning
       return std::make_unique<NoPlan>(cutoff);
     case Pricing::kDone:
       break;

@@ -18,7 +18,8 @@ namespace grove::detail {
 class AllAssignmentsSearch {
  public:
   // Prepares a search for plans that cost less than `cutoff`. Returns nullptr if price_choices() is
-  // not possible, or if cores are disabled in the build or in `options`. All arguments except
+  // not possible, or if cores are disabled in the build or in `options`. With a proof log, the
+  // search logs a formula, and reduced cost fixing is off. All arguments except
   // `bound` must outlive the object.
   static std::unique_ptr<AllAssignmentsSearch> make(const Instance& instance, RouteBound& bound,
                                                     Cost cutoff, const SolveOptions& options,

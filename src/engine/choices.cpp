@@ -58,7 +58,9 @@ class ChoicesRun {
  public:
   ChoicesRun(const Instance& instance, const SolveOptions& options, const Limits& limits,
              MergedObserver& merged)
-      : instance_(instance), options_(options), limits_(limits), merged_(merged) {}
+      : instance_(instance), options_(options), limits_(limits), merged_(merged) {
+    of_one_.proof = nullptr;
+  }
 
   // `spent`: seconds that were spent on the bound.
   Solution run(AssignmentSearch& assignments, const Assignment& first, RouteBound& route_bound,
@@ -88,12 +90,14 @@ class ChoicesRun {
     return best_.plan ? std::optional(best_.plan->cost) : std::nullopt;
   }
   Cost cost() const { return incumbent().value_or(kInfiniteCost); }
+  // The lower bound that decides when the run ends: with a proof, the certified one.
+  Cost reported() const { return options_.proof ? certified_ : bound_; }
 
   Solution solve_one(const Assignment& assignment, double share) {
     ++searched_;
     const Limits part = part_of(limits_, options_, share);
-    return solve_restriction(restriction_to(instance_, assignment, bound_, cost()), options_, part,
-                             merged_);
+    return solve_restriction(restriction_to(instance_, assignment, reported(), cost()), of_one_,
+                             part, merged_);
   }
 
   bool can_search_all() const { return cutoff_margin_ > 0; }
@@ -132,7 +136,7 @@ class ChoicesRun {
     if (all_) use_result_of_all();
     if (is_open || limits_.stop_requested()) return;
     if (all_) end_all();
-    if (bound_ >= cutoff_) return;
+    if (reported() >= cutoff_) return;
     cutoff_margin_ = std::min({cutoff_margin_, cutoff_ - bound_, bound_ + kMarginOffset}) / 2;
     if (!route_bound.can_improve()) return;
     route_bound.improve(kBoundEffort, part_of(limits_, options_, kBoundShare));
@@ -151,9 +155,10 @@ class ChoicesRun {
     if (proven >= kInfiniteCost) return prove_infeasible();
     if (const std::optional<Plan>& plan = all_->plan(); plan && plan->cost < cost())
       best_.plan = plan;
-    else if (proven <= bound_)
+    else if (proven <= reported())
       return report(RunEvent::kProgress);
     const bool is_plan = all_->plan() && best_.plan->cost == all_->plan()->cost;
+    certified_ = std::max(certified_, std::min(proven, cost()));
     set_bound(std::max(bound_, proven));
     merged_.outside_bound(ComponentId::kCores);
     if (is_plan) merged_.incumbent(*best_.plan, PlanSource::kCores, progress());
@@ -169,12 +174,16 @@ class ChoicesRun {
 
   void set_bound(Cost proven) {
     bound_ = std::min(proven, cost());
-    best_.lower_bound = bound_;
-    best_.status = status_of(incumbent(), bound_, options_.omega);
+    state_bound(reported());
     merged_.begin_search();
   }
 
-  Progress progress() const { return {.lower_bound = bound_, .incumbent = incumbent()}; }
+  void state_bound(Cost bound) {
+    best_.lower_bound = bound;
+    best_.status = status_of(incumbent(), bound, options_.omega);
+  }
+
+  Progress progress() const { return {.lower_bound = reported(), .incumbent = incumbent()}; }
 
   void report(RunEvent event) {
     std::map<std::string, std::int64_t> counts;
@@ -209,6 +218,7 @@ class ChoicesRun {
     auto& texts = best_.stats.texts;
     texts.erase("stopped_by");
     texts.erase("remark");
+    if (best_.status != Status::kInfeasible) state_bound(std::max(reported(), best_.lower_bound));
     if (is_over()) return std::move(best_);
     if (limits_.stop_requested()) texts["stopped_by"] = stop_text(limits_.reason());
     texts["remark"] = fmt::format(
@@ -219,9 +229,11 @@ class ChoicesRun {
 
   const Instance& instance_;
   const SolveOptions& options_;
+  SolveOptions of_one_ = options_;  // for one assignment, which proves nothing for all
   const Limits& limits_;
   MergedObserver& merged_;
-  Cost bound_ = 0;  // for all assignments
+  Cost bound_ = 0;      // for all assignments
+  Cost certified_ = 0;  // the part of it that the proof log proves
   Solution best_;
   std::unique_ptr<AllAssignmentsSearch> all_;
   bool has_announced_all_ = false;
@@ -244,7 +256,7 @@ Solution assign_and_solve(const Instance& instance, const SolveOptions& options,
   Cost bound = lower_bound_of_choices(instance, distances, limits);
   AssignmentSearch assignments(instance, distances, options.seed);
   const auto first = assignments.first(limits);
-  if (!first) return without_assignment(options, limits, bound);
+  if (!first) return without_assignment(options, limits, options.proof ? 0 : bound);
   RouteBound route_bound(assignments.routes());
   const auto start = limits.now();
   route_bound.improve(kBoundEffort, part_of(limits, options, kBoundShare));
@@ -303,7 +315,12 @@ void require_choices_fit(const Instance& instance, const SolveOptions& options) 
   if (options.start) require_no_choices(instance, "a start plan does not support", "no start plan");
   if (!options.checkpoints.directory.empty() || options.resume)
     require_no_choices(instance, "checkpoints do not support", "no checkpoints");
-  if (options.proof) require_no_choices(instance, "proofs do not support", "no proof");
+  if (options.proof) require_certified_choices(instance);
+}
+
+void require_certified_choices(const Instance& instance) {
+  if (const auto choice = find_uncertified_choice(instance))
+    throw InstanceError(choice->field, refusal_text(*choice, "proofs do not support", "no proof"));
 }
 
 }  // namespace grove::detail

@@ -16,7 +16,11 @@ Solution solve_with_choices(const Instance& instance, const SolveOptions& option
                             const Limits& limits, RunObserver& observer);
 
 // Throws InstanceError if the instance has choices and the options are for a part of Grove that
-// does not support them: policy fixed, start plans, checkpoints or proofs.
+// does not support them: policy fixed, start plans or checkpoints; or if options.proof is set and
+// certificates do not cover the choices.
 void require_choices_fit(const Instance& instance, const SolveOptions& options);
+
+// Throws InstanceError if the instance has a choice that certificates do not cover.
+void require_certified_choices(const Instance& instance);
 
 }  // namespace grove::detail

@@ -38,6 +38,8 @@ struct Prices {
     int stop;
   };
   struct Need {
+    TaskIndex task = 0;
+    Time price = 0;  // what an agent pays that leaves the task out
     int count = 1;
     bool is_exact = false;  // exactly `count` of `visits` are counted; otherwise at least `count`
     std::vector<Visit> visits;

@@ -27,7 +27,6 @@
 
 #include "conflicts/conflict.h"
 #include "model/assert.h"
-#include "model/choices.h"
 #include "model/instance.h"
 #include "model/omega.h"
 #include "planning/constraint.h"
@@ -185,10 +184,11 @@ class CertificateBuilder {
   }
 
   Certificate write(Cost claimed, const std::filesystem::path& file) {
-    const Cost of_trees = forest_.value(claimed);
+    const Cost of_trees = instance_.has_choices() ? 0 : forest_.value(claimed);
     made_.bound = std::min(claimed, std::max({of_trees, written_.pricing_bound,
                                               written_.joint_bound, written_.of_formula}));
-    const bool by_trees = of_trees >= made_.bound && !is_evidently_infeasible(claimed);
+    const bool by_trees =
+        of_trees >= made_.bound && !is_evidently_infeasible(claimed) && !instance_.has_choices();
     LemmaCollector choosing(made_.bound);
     if (by_trees) forest_.visit(made_.bound, choosing);
     CertificateOutput output(file, true);
@@ -203,6 +203,8 @@ class CertificateBuilder {
     TreeWriter writing(instance_, lemmas, output, made_);
     if (by_trees)
       forest_.visit(made_.bound, writing);
+    else if (instance_.has_choices())
+      write_choices(output);
     else if (written_.pricing_bound >= made_.bound)
       write_prices(output);
     else if (written_.of_formula >= made_.bound)
@@ -229,6 +231,12 @@ class CertificateBuilder {
     made_.by_joint_search = true;
   }
 
+  // Without a logged formula, writes one that proves the bound 0.
+  void write_choices(CertificateOutput& output) const {
+    if (!formula_part_.empty()) return write_formula(instance_, formula_part_, made_.bound, output);
+    for (const char* line : {"choices", "formula", "end"}) output.line(line);
+  }
+
   void write_prices(CertificateOutput& output) const {
     output.line("prices");
     for (const RowMultiplier& row : written_.priced_rows) output.line(proof_text(row));
@@ -248,7 +256,6 @@ class CertificateBuilder {
 Certificate write_certificate(const Instance& instance,
                               std::span<const std::filesystem::path> parts, Cost claimed,
                               const std::filesystem::path& file) {
-  require_no_choices(instance, "certificates do not support yet");
   return CertificateBuilder(instance, parts).write(claimed, file);
 }
 

@@ -25,8 +25,8 @@ struct Certificate {
 // proves the bound `claimed` or, if the logs do not suffice, the greatest bound that they prove. It
 // contains only those parts of the trees and those lemmas that this bound needs. The compressed
 // file appears completely or not at all, except that special files are written directly
-// (AtomicFile). Throws InputError, and InstanceError if the instance has choices, which no rule of
-// docs/proof.md covers. Takes about 100 bytes of memory for each logged split and bound.
+// (AtomicFile). If the instance has choices, only formulas of the logs are used. Throws InputError.
+// Takes about 100 bytes of memory for each logged split and bound.
 Certificate write_certificate(const Instance& instance,
                               std::span<const std::filesystem::path> parts, Cost claimed,
                               const std::filesystem::path& file);

@@ -193,7 +193,8 @@ class Reader {
     if (found != expected) fail_at(found, expected + ", the checksum of this instance");
   }
 
-  CertificateConstraint constraint() {
+  // `may_rest_ever`: the time of `rest` may be inf.
+  CertificateConstraint constraint(bool may_rest_ever = false) {
     using CertificateKind = CertificateConstraint::Kind;
     CertificateConstraint constraint;
     constraint.agent = agent();
@@ -213,7 +214,10 @@ class Reader {
       case CertificateKind::kNoRest:
       case CertificateKind::kRest:
         constraint.p = place();
-        constraint.begin = constraint.end = time();
+        if (may_rest_ever && constraint.kind == CertificateKind::kRest && take_inf())
+          constraint.begin = constraint.end = CertificateConstraint::kForEver;
+        else
+          constraint.begin = constraint.end = time();
         break;
       case CertificateKind::kStop:
       case CertificateKind::kNoStop:
@@ -259,7 +263,7 @@ class Reader {
 
   // Takes one step of a proof. Returns the change in the number of open subproofs.
   int step() {
-    switch (one_of({"leaf", "split", "later", "joint", "prices", "formula"})) {
+    switch (one_of({"leaf", "split", "later", "joint", "prices", "formula", "choices"})) {
       case 0:
         named_.clear();
         while (words_) named_.push_back(lemma());
@@ -280,8 +284,15 @@ class Reader {
         visitor_.prices();
         take_rows();
         return -1;
+      case 5:
+        end_line();
+        visitor_.formula();
+        take_formula();
+        return -1;
       default:
         end_line();
+        visitor_.formula();
+        take_prices_of_choices();
         take_formula();
         return -1;
     }
@@ -328,9 +339,22 @@ class Reader {
     }
   }
 
+  // Takes the lines after "choices", up to the first line of the formula.
+  void take_prices_of_choices() {
+    for (;;) {
+      take_line();
+      const int kind = one_of({"task", "goal", "formula"});
+      if (kind == 0) task();
+      if (kind == 1) place();
+      if (kind < 2) number("a price", kTimes);
+      end_line();
+      visitor_.formula_line();
+      if (kind == 2) return;
+    }
+  }
+
   // Takes a formula after its first line.
   void take_formula() {
-    visitor_.formula();
     variables_ = sums_ = clauses_ = 0;
     for (;;) {
       take_line();
@@ -347,7 +371,7 @@ class Reader {
     const auto* const found = std::ranges::find(kFormulaWords, word);
     if (word.empty() || found == kFormulaWords.end()) return false;
     const auto kind = static_cast<FormulaKind>(found - kFormulaWords.begin());
-    if (is_step(kind)) return false;
+    if (is_step(kind) || kind < FormulaKind::kAgent) return false;
     next_word();
     take_meaning(kind);
     end_line();
@@ -376,7 +400,20 @@ class Reader {
       case FormulaKind::kNode:
         return take_node();
       case FormulaKind::kMeets:
-        constraint();
+        constraint(true);
+        return;
+      case FormulaKind::kCounts:
+      case FormulaKind::kSkips:
+        agent();
+        task();
+        return;
+      case FormulaKind::kUsed:
+        place();
+        number("a unit of a price", kTimes);
+        return;
+      case FormulaKind::kAtMost:
+        number("the number of an earlier sum", sums_);
+        number("a number of inputs", kTimes);
         return;
       case FormulaKind::kInside:
       case FormulaKind::kEnds:
@@ -417,6 +454,7 @@ class Reader {
     if (!words_) return;
     keyword("since");
     time();
+    if (words_ == "end") keyword("end");
   }
 
   // Takes a variable of the formula, or its negation.

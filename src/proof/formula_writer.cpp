@@ -51,17 +51,25 @@ class FormulaRange : public FormulaReader {
   std::int64_t lines_ = 0;
 };
 
-// Writes the definitions in a range of lines, or the steps.
+// The parts of a formula, in the order in which they are written.
+enum class FormulaPart : std::uint8_t { kPrices, kDefinitions, kSteps };
+
+FormulaPart part_of(FormulaKind kind) {
+  if (kind < FormulaKind::kAgent) return FormulaPart::kPrices;
+  return is_step(kind) ? FormulaPart::kSteps : FormulaPart::kDefinitions;
+}
+
+// Writes one part of the formula in a range of lines.
 class FormulaWriter : public FormulaReader {
  public:
-  FormulaWriter(const Instance& instance, const FormulaRange& range, bool writes_steps,
+  FormulaWriter(const Instance& instance, const FormulaRange& range, FormulaPart part,
                 CertificateOutput& output)
-      : instance_(instance), range_(range), writes_steps_(writes_steps), output_(output) {}
+      : instance_(instance), range_(range), part_(part), output_(output) {}
 
   void formula(FormulaKind kind, Numbers numbers) override {
     const std::int64_t line = lines_++;
     if (line < range_.first || line >= range_.end || kind == FormulaKind::kBegin) return;
-    if (is_step(kind) == writes_steps_) output_.line(text(kind, numbers));
+    if (part_of(kind) == part_) output_.line(text(kind, numbers));
   }
   void formula_bound(Cost /*bound*/) override {}
 
@@ -83,15 +91,12 @@ class FormulaWriter : public FormulaReader {
     }
   }
 
-  std::string node_text(Numbers numbers) const {
+  static std::string node_text(Numbers numbers) {
     std::string line = fmt::format("node {} {} {} {} {}", numbers[0], numbers[1], numbers[2],
                                    numbers[3], numbers[4]);
-    if (numbers[5] >= 0)
-      line += fmt::format(" work {} {}",
-                          instance_.agent(static_cast<AgentIndex>(numbers[0]))
-                              .stops[static_cast<std::size_t>(numbers[5])],
-                          numbers[6]);
+    if (numbers[5] >= 0) line += fmt::format(" work {} {}", numbers[5], numbers[6]);
     if (numbers[7] >= 0) line += fmt::format(" since {}", numbers[7]);
+    if (numbers[8] != 0) line += " end";
     return line;
   }
 
@@ -105,7 +110,7 @@ class FormulaWriter : public FormulaReader {
 
   const Instance& instance_;
   const FormulaRange& range_;
-  const bool writes_steps_;
+  const FormulaPart part_;
   CertificateOutput& output_;
   std::int64_t lines_ = 0;
 };
@@ -117,11 +122,17 @@ void write_formula(const Instance& instance, const std::filesystem::path& part, 
   FormulaRange range(bound);
   read_proof_part(part, range);
   GROVE_CHECK(range.end >= 0, "the log proves the bound");
-  output.line("formula");
-  for (const bool writes_steps : {false, true}) {
-    FormulaWriter writer(instance, range, writes_steps, output);
+  const auto write = [&](FormulaPart of_formula) {
+    FormulaWriter writer(instance, range, of_formula, output);
     read_proof_part(part, writer);
+  };
+  if (instance.has_choices()) {
+    output.line("choices");
+    write(FormulaPart::kPrices);
   }
+  output.line("formula");
+  write(FormulaPart::kDefinitions);
+  write(FormulaPart::kSteps);
   output.line("end");
 }
 

@@ -28,7 +28,7 @@ std::string proof_text(const AgentConstraint& constraint, const Instance& instan
     case ConstraintKind::kNoRestBy:
       return text("norest", c.cell, c.end);
     case ConstraintKind::kRestBy:
-      return text("rest", c.cell, c.end);
+      return text("rest", c.cell, proof_text_until(c.end));
     case ConstraintKind::kNoTraversal:
       return text("pass", c.from, c.cell, c.begin, proof_text_until(c.end));
     case ConstraintKind::kStopIs:

@@ -14,9 +14,9 @@ namespace grove::detail {
 
 // The first words of the lines of a formula, by FormulaKind; kBegin has no line.
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(kLastFormulaKind) + 1>
-    kFormulaWords = {"",      "agent", "within", "active", "visit", "last",
-                     "rests", "node",  "meets",  "inside", "ends",  "count",
-                     "sum",   "split", "clause", "drop",   "core"};
+    kFormulaWords = {"",      "task", "goal",  "agent",  "within", "active", "visit",  "last",
+                     "rests", "node", "meets", "counts", "skips",  "used",   "inside", "ends",
+                     "count", "sum",  "split", "atmost", "clause", "drop",   "core"};
 inline std::string_view formula_word(FormulaKind kind) {
   return kFormulaWords[static_cast<std::size_t>(kind)];
 }

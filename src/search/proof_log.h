@@ -72,6 +72,9 @@ struct ProofExcess {
 // A line of the formula of a core search (docs/proof.md, "formula").
 enum class FormulaKind : std::uint8_t {
   kBegin,  // a formula begins; forgets the lines so far. No numbers
+  // Prices of choices, above 0.
+  kTask,  // task, price of leaving it out
+  kGoal,  // place, price
   // Definitions. Those from kWithin to kCount define the variables 1, 2, ...
   kAgent,   // agent, greatest excess of its paths
   kWithin,  // agent, excess
@@ -79,14 +82,18 @@ enum class FormulaKind : std::uint8_t {
   kVisit,   // agent, place, time
   kLast,    // agent, place, time
   kRests,   // agent, place, time (kNever: ever)
-  kNode,   // agent, time, place, rank of the pose, stops done, stop executed or -1, its steps done,
-           // time of the last arrival or -1
+  kNode,   // agent, time, place, rank of the pose, stops done, task executed or -1, its steps done,
+           // time of the last arrival or -1, 1 if a path with prices ends here or 0
   kMeets,  // agent and constraint: cell, from, begin, end, kind
+  kCounts,  // agent, task
+  kSkips,   // agent, task
+  kUsed,    // place, unit of its price or 0
   kInside,  // agent, last inner place, exit, time
   kEnds,    // as kInside
   kCount,   // sum, first input, end of the inputs, least number of true inputs
   kSum,     // inputs; defines the sums 0, 1, ...
   kSplit,   // two variables
+  kAtMost,  // sum, greatest number of true inputs
   // Steps.
   kClause,  // literals
   kDrop,    // number of a clause, from 0

@@ -4,10 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 
+#include "assignment/priced_instance.h"
 #include "engine/method.h"
 #include "model/check.h"
+#include "search/proof_log.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/joint_oracle.h"
 #include "tests/support/choices.h"
@@ -18,6 +22,28 @@ namespace grove::detail {
 namespace choices_test {
 
 constexpr std::size_t kStates = 20'000;
+
+// Keeps the greatest bound that formulas prove, and counts the statements of other searches.
+class BoundLog : public ProofLog {
+ public:
+  Cost proven = 0;
+  int others = 0;
+
+  void tree(const ProofTree& /*tree*/) override { ++others; }
+  void split(const ProofSplit& /*split*/) override { ++others; }
+  void bound(ProofKey /*node*/, Cost /*cost*/, Cost /*bound*/,
+             std::span<const ProofExcess> /*excesses*/) override {
+    ++others;
+  }
+  void lemma(const ProofLemma& /*lemma*/, ProofKey /*root*/,
+             std::span<const ProofSplit> /*splits*/) override {
+    ++others;
+  }
+  void prices(Cost /*bound*/, std::span<const RowMultiplier> /*rows*/) override { ++others; }
+  void joint(Cost /*bound*/) override { ++others; }
+  void formula(FormulaKind /*kind*/, std::span<const std::int64_t> /*numbers*/) override {}
+  void formula_bound(Cost bound) override { proven = std::max(proven, bound); }
+};
 
 TEST(SolveWithChoices, AgreesWithTheOracle) {
   int instances = 0;
@@ -41,6 +67,33 @@ TEST(SolveWithChoices, AgreesWithTheOracle) {
   }
   EXPECT_GT(instances, 25);
   EXPECT_GT(20 * optimal, 19 * instances);  // the others begin at work
+}
+
+// The bound of a search without cores would hold, but no formula proves it.
+TEST(SolveWithChoices, ReportsOnlyProvenBoundsWithAProof) {
+  int optimal = 0;
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(30));
+       ++seed) {
+    SCOPED_TRACE(seed);
+    const Instance instance = with_random_choices(fuzz::any_instance(seed).build(), seed);
+    if (!instance.has_choices() || find_uncertified_choice(instance)) continue;
+    if (!oracle::solve_jointly(instance, kStates).plan) continue;  // the search might not end
+    for (const bool has_cores : {false, true}) {
+      BoundLog log;
+      SolveOptions options;
+      options.seed = seed;
+      options.proof = &log;
+      if (!has_cores) options.techniques = Techniques::defaults().without(Technique::kCores);
+      const Solution solution = solve_by(Method::kAuto, false, instance, options, Limits());
+      EXPECT_LE(solution.lower_bound, log.proven);
+      EXPECT_EQ(log.others, 0);
+      optimal += solution.status == Status::kOptimal ? 1 : 0;
+      if (!has_cores) {
+        EXPECT_EQ(log.proven, 0);
+      }
+    }
+  }
+  EXPECT_GT(optimal, 3);
 }
 
 TEST(SolveWithChoices, TooFewGoalsAreInfeasible) {

@@ -2,6 +2,7 @@
 #include "tests/fuzz/component_case.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "model/check.h"
 #include "tests/fuzz/random.h"
@@ -61,6 +62,27 @@ TinyInstance roomy_instance(std::uint64_t seed) {
       ++tasks;
     }
   }
+  return instance;
+}
+
+// More agents and tasks in less space, so that choices decide who passes whom.
+TinyInstance narrow_instance(std::uint64_t seed) {
+  Random random(seed ^ 0xC401);
+  TinyInstance instance;
+  instance.rows = corridor_board(random);
+  std::vector<Position> starts = passable_cells(instance.rows);
+  std::vector<Position> ends = starts;
+  std::vector<Position> cells = starts;
+  random.shuffle(starts);
+  random.shuffle(ends);
+  random.shuffle(cells);
+  const int agents = std::min(random.between(3, 4), static_cast<int>(starts.size()) - 1);
+  for (int a = 0; a < agents; ++a) {
+    instance.agents.push_back({starts[a], ends[a]});
+    if (random.percent(10)) instance.agents.back().goal.reset();
+  }
+  const int tasks = std::min(random.between(0, 3), static_cast<int>(cells.size()));
+  for (int t = 0; t < tasks; ++t) instance.tasks.push_back({cells[t], {random.below(agents)}});
   return instance;
 }
 
@@ -124,6 +146,9 @@ void choose_techniques(Part part, SolveOptions& options, Random& random) {
       options.policy = Policy::kFixed;
       options.rtsp = random.pick<RtspBackend>(
           {RtspBackend::kAuto, RtspBackend::kHeldKarp, RtspBackend::kBoundedDp});
+      return;
+    case Part::kChoices:
+      return;
   }
 }
 
@@ -132,7 +157,8 @@ void choose_techniques(Part part, SolveOptions& options, Random& random) {
 FuzzCase component_case(Part part, std::uint64_t seed) {
   FuzzCase fuzz_case = random_case(seed);
   if (part == Part::kAny) return fuzz_case;
-  if (seed % 2 == 0) fuzz_case.instance = roomy_instance(seed);
+  if (seed % 2 == 0)
+    fuzz_case.instance = part == Part::kChoices ? narrow_instance(seed) : roomy_instance(seed);
   fuzz_case.limit = ImposedLimit::kNothing;
   SolveOptions options;
   options.omega = Omega::from_double(0);
@@ -141,7 +167,7 @@ FuzzCase component_case(Part part, std::uint64_t seed) {
   Random random(seed ^ 0x10E);
   choose_techniques(part, options, random);
   fuzz_case.options = options;
-  return fuzz_case;
+  return part == Part::kChoices ? with_choices(std::move(fuzz_case), seed + 1) : fuzz_case;
 }
 
 Plan higher_cost_plan(const Instance& instance, const Plan& plan) {

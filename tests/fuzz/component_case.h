@@ -11,14 +11,15 @@
 namespace grove::detail::fuzz {
 
 enum class Part : std::uint8_t {
-  kAny,       // all components and any options: random_case()
-  kTree,      // branching and the bounds of single agents
-  kPairs,     // kTree, and WDG weights of pairs and groups, by joint MDDs and by splits
-  kGroups,    // kPairs, and EPEA* for pairs and groups, from the start
-  kJoint,     // EPEA* for all agents
-  kPrices,    // the Lagrangian bound at the root; the caller interrupts the tree search
-  kCores,     // unsatisfiable cores
-  kSequences  // one tree for each joint sequence
+  kAny,        // all components and any options: random_case()
+  kTree,       // branching and the bounds of single agents
+  kPairs,      // kTree, and WDG weights of pairs and groups, by joint MDDs and by splits
+  kGroups,     // kPairs, and EPEA* for pairs and groups, from the start
+  kJoint,      // EPEA* for all agents
+  kPrices,     // the Lagrangian bound at the root; the caller interrupts the tree search
+  kCores,      // unsatisfiable cores
+  kSequences,  // one tree for each joint sequence
+  kChoices     // all assignments at once, for instances with choices
 };
 
 struct NamedPart {
@@ -26,10 +27,11 @@ struct NamedPart {
   std::string_view name;
 };
 inline constexpr std::array kParts = {
-    NamedPart{Part::kAny, "any"},     NamedPart{Part::kTree, "tree"},
-    NamedPart{Part::kPairs, "pairs"}, NamedPart{Part::kGroups, "groups"},
-    NamedPart{Part::kJoint, "joint"}, NamedPart{Part::kPrices, "prices"},
-    NamedPart{Part::kCores, "cores"}, NamedPart{Part::kSequences, "sequences"},
+    NamedPart{Part::kAny, "any"},         NamedPart{Part::kTree, "tree"},
+    NamedPart{Part::kPairs, "pairs"},     NamedPart{Part::kGroups, "groups"},
+    NamedPart{Part::kJoint, "joint"},     NamedPart{Part::kPrices, "prices"},
+    NamedPart{Part::kCores, "cores"},     NamedPart{Part::kSequences, "sequences"},
+    NamedPart{Part::kChoices, "choices"},
 };
 
 // Returns the case of `seed`: for kAny random_case(), for any other part a case without an imposed

@@ -23,7 +23,7 @@ namespace {
 class Meanings {
  public:
   Meanings(const Instance& instance, const Plan& plan)
-      : world_(instance.world()), corridors_(instance.world()) {
+      : instance_(instance), world_(instance.world()), corridors_(instance.world()) {
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
       paths_.push_back(walked_path(instance, agent, plan.agents[static_cast<std::size_t>(agent)]));
       last_.push_back(static_cast<Time>(paths_.back().size()) - 1);
@@ -37,7 +37,9 @@ class Meanings {
     std::istringstream words(definition);
     std::string kind;
     AgentIndex agent = 0;
-    words >> kind >> agent;
+    words >> kind;
+    if (kind == "used") return is_used(words);
+    words >> agent;
     if (kind == "meets") return satisfies(world_, paths_.at(agent), constraint(words), corridors_);
     if (kind == "node") return node(agent, words);
     if (kind != "visit" && kind != "last" && kind != "rests") return std::nullopt;
@@ -69,6 +71,16 @@ class Meanings {
     return std::nullopt;
   }
 
+  // True if an agent that chooses among goals rests on this one.
+  bool is_used(std::istringstream& words) const {
+    Place goal = 0;
+    words >> goal;
+    for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent)
+      if (!instance_.agent(agent).goals.empty() && place(agent, last_.at(agent)) == goal)
+        return true;
+    return false;
+  }
+
   static Time until(std::istringstream& words) {
     std::string word;
     words >> word;
@@ -83,7 +95,7 @@ class Meanings {
     words >> c.cell;
     if (kind == "norest" || kind == "rest") {
       c.kind = kind == "rest" ? ConstraintKind::kRestBy : ConstraintKind::kNoRestBy;
-      words >> c.end;
+      c.end = until(words);
       return c;
     }
     if (kind == "pass") c.kind = ConstraintKind::kNoTraversal;
@@ -92,6 +104,7 @@ class Meanings {
     return c;
   }
 
+  const Instance& instance_;
   const World& world_;
   const Corridors corridors_;
   std::vector<Path> paths_;
@@ -99,9 +112,9 @@ class Meanings {
 };
 
 bool defines_variable(const std::string& line) {
-  constexpr std::array<std::string_view, 10> kKinds{"within ", "active ", "visit ", "last ",
-                                                    "rests ",  "node ",   "meets ", "inside ",
-                                                    "ends ",   "count "};
+  constexpr std::array<std::string_view, 13> kKinds{
+      "within ", "active ", "visit ", "last ",   "rests ", "node ", "meets ",
+      "counts ", "skips ",  "used ",  "inside ", "ends ",  "count "};
   return std::ranges::any_of(kKinds, [&](auto kind) { return line.starts_with(kind); });
 }
 

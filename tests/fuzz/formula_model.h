@@ -17,7 +17,8 @@ namespace grove::detail::fuzz {
 std::vector<std::string> definitions_only(std::span<const std::string> certificate, Cost cost);
 
 // `clauses`: a file in DIMACS format, written by grove-verify for `definitions`. Returns whether an
-// assignment satisfies them in which presences and constraints have the values of the plan.
+// assignment satisfies them in which presences, constraints and used goals have the values of the
+// plan.
 bool has_model(const std::filesystem::path& clauses, std::span<const std::string> definitions,
                const Instance& instance, const Plan& plan);
 

@@ -17,6 +17,11 @@
 #include <string>
 #include <vector>
 
+#include "assignment/assignment_search.h"
+#include "assignment/priced_instance.h"
+#include "assignment/route_bound.h"
+#include "engine/all_assignments.h"
+#include "engine/choices.h"
 #include "engine/run_observer.h"
 #include "planning/agent_stops_cache.h"
 #include "planning/problem.h"
@@ -33,6 +38,7 @@
 #include "tests/fuzz/component_case.h"
 #include "tests/fuzz/formula_model.h"
 #include "tests/fuzz/fuzz_case.h"
+#include "tests/fuzz/random.h"
 #include "tests/oracle/joint_oracle.h"
 
 namespace grove::detail::fuzz {
@@ -53,6 +59,7 @@ struct Arguments {
 };
 
 constexpr std::size_t kOracleStates = 300'000;
+constexpr std::int64_t kEffort = 1'000'000;  // of a call of the search over all assignments
 
 constexpr const char* kFooter =
     R"(Searches tiny instances whose optimum is known, certifies their bounds, and has the checker verify
@@ -128,12 +135,14 @@ class Trial {
     case_ = component_case(part_of_search_, seed);
     case_.options.audit = false;
     if (part_of_search_ == Part::kAny && seed % 3 == 0) prefer_tree_and_lagrangian(seed);
-    const Instance instance = case_.instance.build();
+    const Instance instance = case_.build();
+    if (find_uncertified_choice(instance)) return;
+    if (part_of_search_ == Part::kChoices && !instance.has_choices()) return;
     const oracle::Answer truth = oracle::solve_jointly(instance, kOracleStates);
     if (truth.verdict == oracle::Verdict::kTooLarge) return;
     optimum_ = truth.plan ? truth.plan->cost : kInfiniteCost;
     write(instance);
-    if (part_of_search_ != Part::kAny && truth.plan && seed % 4 < 2)
+    if (part_of_search_ != Part::kAny && !instance.has_choices() && truth.plan && seed % 4 < 2)
       case_.options.start = higher_cost_plan(instance, *truth.plan);
     Solution solution;
     try {
@@ -147,9 +156,10 @@ class Trial {
     const Certificate made = write_certificate(instance, std::array{part_}, claimed, proof_);
     judge(made, claimed, solution);
     test_mutants(seed);
-    if (part_of_search_ != Part::kCores) return;
     try {
-      test_core_search(instance, truth, seed);
+      if (part_of_search_ == Part::kCores) test_core_search(instance, truth, seed);
+      if (part_of_search_ == Part::kChoices && truth.plan)
+        test_all_assignments(instance, *truth.plan, seed);
     } catch (const std::exception& error) {
       ++threw_;
       complain(error.what());
@@ -211,7 +221,10 @@ class Trial {
                         std::chrono::microseconds(static_cast<std::int64_t>(a_.seconds * 1e6)));
     StopsAtSecondNode stops_early(limits);
     RunObserver* const observer = part_of_search_ == Part::kPrices ? &stops_early : nullptr;
-    const Solution solution = detail::solve(instance, options, limits, observer);
+    RunObserver none;
+    const Solution solution = instance.has_choices()
+                                  ? solve_with_choices(instance, options, limits, none)
+                                  : detail::solve(instance, options, limits, observer);
     recorder.flush();
     return solution;
   }
@@ -276,6 +289,33 @@ class Trial {
     if (truth.plan) check_formula(lines, instance, *truth.plan);
     test_mutants(seed);
 #endif
+  }
+
+  // The search over all assignments by itself, with multipliers of different quality. With bad ones
+  // the least prices prove less, and the clauses must prove more.
+  void test_all_assignments(const Instance& instance, const Plan& optimal, std::uint64_t seed) {
+    Random random(seed ^ 0xA55);
+    fs::remove(part_);
+    ProofRecorder recorder(part_);
+    SolveOptions options = case_.options;
+    options.proof = &recorder;
+    Limits limits;
+    limits.set_deadline(Limits::Clock::now() +
+                        std::chrono::microseconds(static_cast<std::int64_t>(a_.seconds * 1e6)));
+    const DistanceFields distances(instance);
+    AssignmentSearch assignments(instance, distances, seed);
+    if (!assignments.first(limits)) return;
+    RouteBound routes(assignments.routes());
+    routes.improve(random.pick<std::int64_t>({50, 500, 5'000, 100'000}), limits);
+    const Cost cutoff = optimum_ + random.between(0, 3);
+    const auto search = AllAssignmentsSearch::make(instance, routes, cutoff, options, limits);
+    if (!search) return;
+    while (search->run(cutoff, kEffort) && !limits.stop_requested()) continue;
+    recorder.flush();
+    const Cost proven = std::min(search->lower_bound(), cutoff);
+    judge(write_certificate(instance, std::array{part_}, proven, proof_), proven, Solution{});
+    check_formula(certificate_lines(proof_), instance, optimal);
+    test_mutants(seed + 1);
   }
 
   // The clauses of a formula that are true for all plans up to the optimum must be true for the

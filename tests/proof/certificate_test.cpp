@@ -169,8 +169,8 @@ TEST_F(Certificates, UseAFormulaUpToTheBoundThatTheyNeed) {
   log(Kind::kWithin, {0, 1});
   log(Kind::kClause, {-1});
   log(Kind::kRests, {0, 3, kNever});
-  log(Kind::kNode, {0, 4, 3, 0, 2, -1, 0, -1});
-  log(Kind::kNode, {0, 5, 3, 1, 2, 1, 3, 4});
+  log(Kind::kNode, {0, 4, 3, 0, 2, -1, 0, -1, 0});
+  log(Kind::kNode, {0, 5, 3, 1, 2, 1, 3, 4, 0});
   log(Kind::kMeets, {1, 2, 1, 0, kNever, 0});
   log(Kind::kSum, {-1, 2});
   log(Kind::kCount, {0, 0, 2, 2});
@@ -198,6 +198,34 @@ TEST_F(Certificates, UseAFormulaUpToTheBoundThatTheyNeed) {
   EXPECT_THAT(made(4), ElementsAre("theorem 4", "leaf", "end"));
   EXPECT_EQ(made(6).size(), lines.size() + 3);
   EXPECT_EQ(made(7).front(), "theorem 6");
+}
+
+TEST_F(Certificates, OfChoicesBeginWithTheirPrices) {
+  using Kind = FormulaKind;
+  const auto log = [&](Kind kind, std::vector<std::int64_t> numbers) {
+    recorder_.formula(kind, numbers);
+  };
+  log(Kind::kBegin, {});
+  log(Kind::kTask, {0, 7});  // of an earlier formula
+  log(Kind::kBegin, {});
+  log(Kind::kTask, {0, 2});
+  log(Kind::kGoal, {3, 1});
+  log(Kind::kCounts, {0, 0});
+  log(Kind::kSkips, {1, 0});
+  log(Kind::kUsed, {3, 1});
+  log(Kind::kSum, {-1, -2});
+  log(Kind::kAtMost, {0, 1});
+  log(Kind::kNode, {0, 4, 3, 0, 1, -1, 0, 4, 1});
+  log(Kind::kMeets, {1, 3, kNoCell, 0, kNever, static_cast<std::int64_t>(ConstraintKind::kRestBy)});
+  recorder_.formula_bound(4);
+  recorder_.flush();
+  const Instance instance = testing::instance_with_need();
+  EXPECT_EQ(write_certificate(instance, std::array{part_}, 5, file_).bound, 4);
+  const std::vector<std::string> lines = lines_of(file_);
+  EXPECT_THAT(std::vector(lines.begin() + 3, lines.end()),
+              ElementsAre("theorem 4", "choices", "task 0 2", "goal 3 1", "formula", "counts 0 0",
+                          "skips 1 0", "used 3 1", "sum -1 -2", "atmost 0 1",
+                          "node 0 4 3 0 1 since 4 end", "meets 1 rest 3 inf", "end", "end"));
 }
 
 TEST_F(Certificates, OfAPresolvedInstanceAskForAllJointPaths) {
@@ -247,11 +275,10 @@ TEST_F(Certificates, ChecksumsCoverChoices) {
   EXPECT_EQ(checksum({}, 3), checksum({}, {}));
 }
 
-TEST_F(Certificates, AreNotMadeForChoices) {
-  for (const Instance& instance : {testing::instance_with_goals(), testing::instance_with_need()}) {
-    EXPECT_THROW(write_certificate(instance, std::array{part_}, 4, file_), InstanceError);
-    EXPECT_FALSE(fs::exists(file_));
-  }
+TEST_F(Certificates, ClaimNothingAboutChoicesWithoutFormula) {
+  recorder_.flush();
+  for (const Instance& instance : {testing::instance_with_goals(), testing::instance_with_need()})
+    EXPECT_EQ(write_certificate(instance, std::array{part_}, 4, file_).bound, 0);
 }
 
 }  // namespace

@@ -133,12 +133,12 @@ TEST_F(CertificateTexts, FollowTheGrammarExactly) {
             "line 5: found ''; expected the number of an earlier lemma, of which there is none");
   EXPECT_EQ(refusal_of_proof("leaf\r\n"),
             "line 5: found 'leaf\\x0d'; expected leaf or split or later or joint or prices or "
-            "formula");
+            "formula or choices");
   EXPECT_EQ(refusal_of_proof("joint 1\n"), "line 5: found '1'; expected the end of the line");
   EXPECT_EQ(refusal_of_proof("leaf\nleaf\n"), "line 6: found 'leaf'; expected 'end'");
   EXPECT_THAT(refusal_of_proof("split 0 bar 0 1 1 | 1 bar 0 1 1\nleaf\n"),
               EndsWith("line 7: found 'end'; expected leaf or split or later or joint or prices or "
-                       "formula"));
+                       "formula or choices"));
   EXPECT_EQ(refusal_of_proof("split 3 bar 0 1 1 | 1 bar 0 1 1\n"),
             "line 5: found '3'; expected the number of an agent, from 0 to 2");
   EXPECT_EQ(refusal_of_proof("split 0 bar 4 1 1 | 1 bar 0 1 1\n"),
@@ -164,6 +164,18 @@ TEST_F(CertificateTexts, FollowTheGrammarExactly) {
             "line 7: found 'within'; expected clause or drop or core or end");
   EXPECT_EQ(refusal_of_proof("formula\nclause\ndrop 1\nend\n"),
             "line 7: found '1'; expected the number of an earlier clause, from 0 to 0");
+  EXPECT_EQ(
+      refusal_of_proof("choices\ntask 0 3\ngoal 1 2\nformula\ncounts 0 0\nskips 1 0\nused 1 2\n"
+                       "meets 0 rest 1 inf\nsum -1\natmost 0 1\nnode 0 1 1 0 1 since 1 end\nend\n"),
+      "it was read");
+  EXPECT_EQ(refusal_of_proof("choices\nwithin 0 0\n"),
+            "line 6: found 'within'; expected task or goal or formula");
+  EXPECT_EQ(refusal_of_proof("formula\ntask 0 3\nend\n"),
+            "line 6: found 'task'; expected clause or drop or core or end");
+  EXPECT_EQ(refusal_of_proof("formula\natmost 0 1\nend\n"),
+            "line 6: found '0'; expected the number of an earlier sum, of which there is none");
+  EXPECT_EQ(refusal_of_proof("split 0 rest 1 inf | 0 norest 1 2\n"),
+            "line 5: found 'inf'; expected a time, from 0 to 2147483647");
   EXPECT_EQ(refusal_of_proof("formula\nnode 0 1 2 0 0 since 1 work\nend\n"),
             "line 6: found 'work'; expected the end of the line");
 }

@@ -8,6 +8,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "engine/choices.h"
 #include "io/input_error.h"
 #include "model/choices.h"
 #include "tools/common/options.h"
@@ -314,7 +315,7 @@ SolveOptions options_of_one_search(const SolveArguments& a) {
 void require_fit(const SolveArguments& a, const Instance& instance, const SolveOptions& options) {
   try {
     require_fit(method_of(a), instance, options);
-    if (!a.proof.empty()) require_no_choices(instance, "proofs do not support", "no proof");
+    if (!a.proof.empty()) require_certified_choices(instance);
   } catch (const InstanceError& error) {
     throw InputError(a.instance.name(), "/" + error.field(), error.what());
   } catch (const std::invalid_argument& error) {

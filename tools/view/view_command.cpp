@@ -203,7 +203,7 @@ void show_drive(const ViewArguments& arguments, const Instance& instance, const 
 
 void show_proof(const ViewArguments& arguments, const Instance& instance,
                 const std::vector<NamedPlan>& plans) {
-  arguments.instance.require_no_choices(instance, "certificates do not support yet");
+  arguments.instance.require_no_choices(instance, "views of certificates do not support yet");
   const CertificateText certificate = read_certificate(arguments.proof, instance, kMaxSplits);
   const bool may_follow = certificate.may_follow;
   const Instance spoken_of = may_follow ? instance : instance.without_following();

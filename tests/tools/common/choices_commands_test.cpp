@@ -74,7 +74,6 @@ TEST_F(ChoicesCommands, SolveFindsValidPlans) {
 TEST_F(ChoicesCommands, SolveRefusesWhatDoesNotSupportChoices) {
   const std::size_t before = files().size();
   const std::vector<std::vector<std::string>> cases{
-      {"proofs do not support", "--proof", "p.proof"},
       {"checkpoints do not support", "--checkpoint", "state"},
       {"policy fixed does not support", "--policy", "fixed"},
       {"method mgcbs does not support", "--method", "mgcbs"},
@@ -95,6 +94,25 @@ TEST_F(ChoicesCommands, SolveRefusesWhatDoesNotSupportChoices) {
     }
   }
   EXPECT_EQ(files().size(), before);
+}
+
+TEST_F(ChoicesCommands, SolveWritesCertificates) {
+  for (const std::string name : {"goals", "need"}) {
+    const ProcessResult solved =
+        run({"solve", name + ".cts.json", "--output", "x.plan.json", "--proof", "p.proof"});
+    EXPECT_EQ(solved.exit_code, 0) << solved.err;
+    EXPECT_TRUE(std::filesystem::exists(directory_.path() / "p.proof"));
+    std::filesystem::remove(directory_.path() / "x.plan.json");
+  }
+}
+
+TEST_F(ChoicesCommands, SolveRefusesCertificatesThatNoRuleCovers) {
+  directory_.write("turns.cts.json", R"({"map": "m.map", "tasks": [], "agents": [
+      {"id": "a", "start": [1, 0], "goals": [[0, 0], [2, 0]], "motion": "turning", "heading": "E"}]})");
+  EXPECT_EQ(refused({"solve", "turns.cts.json", "--output", "x.plan.json", "--proof", "p.proof"}),
+            "turns.cts.json: /agents/0: agent 'a' has a choice and needs time to turn, which "
+            "proofs do not support; expected no proof, or agents that turn freely");
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "p.proof"));
 }
 
 TEST_F(ChoicesCommands, CheckVerifiesPlans) {
@@ -256,11 +274,11 @@ TEST_F(ChoicesCommands, FixingChoicesRefusesRestsWithinRoads) {
   EXPECT_FALSE(std::filesystem::exists(directory_ / "x.cts.json"));
 }
 
-TEST_F(ChoicesCommands, CertificatesAreRefused) {
+TEST_F(ChoicesCommands, ViewRefusesCertificates) {
   directory_.write("p.proof", "grove-proof 1\n");
-  EXPECT_EQ(
-      refused({"view", "goals.cts.json", "--proof", "p.proof", "--output", "x.html"}),
-      "goals.cts.json: /agents/0/goals: " + kGoals + "certificates do not support yet" + kGoalsEnd);
+  EXPECT_EQ(refused({"view", "goals.cts.json", "--proof", "p.proof", "--output", "x.html"}),
+            "goals.cts.json: /agents/0/goals: " + kGoals +
+                "views of certificates do not support yet" + kGoalsEnd);
   EXPECT_FALSE(std::filesystem::exists(directory_ / "x.html"));
 }
 
