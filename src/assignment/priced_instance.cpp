@@ -41,7 +41,16 @@ namespace {
 
 constexpr Time kMaxPrice = 1 << 20;
 
-// The tasks that an agent with prices visits at its stop.
+// True if the agent has an optional task on the place of another one.
+bool shares_places(const Instance& instance, const Agent& agent) {
+  std::set<Place> places;
+  for (const TaskIndex task : agent.tasks) places.insert(instance.task(task).cell);
+  return std::ranges::any_of(agent.options, [&](TaskIndex task) {
+    return !places.insert(instance.task(task).cell).second;
+  });
+}
+
+// The tasks without a duration on the place of the stop, or the one task that takes time there.
 std::vector<TaskIndex> tasks_at(const Instance& priced, AgentIndex index, int stop) {
   const Agent& agent = priced.agent(index);
   const TaskIndex of_stop = agent.stops[stop];
@@ -79,7 +88,7 @@ class Reformulation {
       if (!spec.goals.empty()) spec.goals = choices_[agent].goals;
       if (instance_.agent(agent).goals.size() > 0 && spec.goals.empty()) return Pricing::kNoPlan;
       builder.add_agent(std::move(spec));
-      if (instance_.agent(agent).has_choice()) builder.may_leave_out_stops(agent);
+      if (shares_places(instance_, instance_.agent(agent))) builder.may_leave_out_stops(agent);
     }
     for (TaskIndex task = 0; task < instance_.task_count(); ++task) {
       const Task& of = instance_.task(task);
@@ -104,7 +113,8 @@ class Reformulation {
     if (!agent.has_choice()) return true;
     std::vector<TaskIndex> tasks = choices_[index].visits;
     tasks.insert(tasks.end(), agent.tasks.begin(), agent.tasks.end());
-    return tasks.size() <= kMaxTasksPerAgent && !is_at_work_on_another(index, tasks);
+    return tasks.size() <= kMaxTasksPerAgent &&
+           !(shares_places(instance_, agent) && is_at_work_on_another(index, tasks));
   }
 
   // A task without a duration on the start is visited at time 0, although the agent is at work.
@@ -237,8 +247,9 @@ void end_on_a_task(const Instance& instance, const PricedInstance& priced, Agent
   GROVE_CHECK(std::ranges::any_of(plan.sequence, is_here), "an agent rests on one of its tasks");
 }
 
-std::vector<TaskIndex> tasks_at(const PricedInstance& priced, AgentIndex agent, int stop) {
-  if (priced.prices.agents[agent]) return tasks_at(priced.instance, agent, stop);
+std::vector<TaskIndex> tasks_at(const Instance& instance, const PricedInstance& priced,
+                                AgentIndex agent, int stop) {
+  if (shares_places(instance, instance.agent(agent))) return tasks_at(priced.instance, agent, stop);
   const auto position = static_cast<std::uint8_t>(stop);
   return priced.instance.tasks_in_order(agent, {&position, 1});
 }
@@ -249,7 +260,7 @@ AgentPlan agent_plan_of(const Instance& instance, const PricedInstance& priced, 
   for (const State state : counted.path) plan.path.push_back(priced.instance.world().base(state));
   plan.cost = static_cast<Time>(plan.path.size()) - 1;
   for (const auto& [time, stop] : counted.counted) {
-    for (const TaskIndex task : tasks_at(priced, agent, stop)) {
+    for (const TaskIndex task : tasks_at(instance, priced, agent, stop)) {
       plan.sequence.push_back(task);
       const Task& of = instance.task(task);
       if (of.has_stated_visits()) plan.work.push_back({task, time - of.duration, time});
@@ -263,15 +274,6 @@ std::optional<std::vector<RouteBound::Choices>> all_choices(const Instance& inst
   std::vector<RouteBound::Choices> choices;
   for (const Agent& agent : instance.agents()) choices.push_back({agent.options, agent.goals});
   return choices;
-}
-
-// True if the agent has an optional task on the place of another one.
-bool shares_places(const Instance& instance, const Agent& agent) {
-  std::set<Place> places;
-  for (const TaskIndex task : agent.tasks) places.insert(instance.task(task).cell);
-  return std::ranges::any_of(agent.options, [&](TaskIndex task) {
-    return !places.insert(instance.task(task).cell).second;
-  });
 }
 
 bool starts_with_option(const Instance& instance, AgentIndex index) {
