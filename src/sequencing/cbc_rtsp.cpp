@@ -18,79 +18,23 @@
 // such a subtour is optimal for the full program, because it is optimal for a program with fewer
 // rows. Cuts that callbacks add inside CBC would be lost in its presolve and its restarts.
 //
-// *Exactness.* The absolute and the relative gap are 0. The code checks that the solution is an
-// integral path, and recomputes its cost in integers. If a solve stops early, the answer is
-// kStopped.
-//
-// *Threads.* CBC is not thread-safe, so the whole process solves one program at a time. The code
-// uses only the classes of CBC, because its driver (CbcMain) would install signal handlers and
-// print.
-#include <CbcEventHandler.hpp>
-#include <CbcModel.hpp>
-#include <ClpEventHandler.hpp>
-#include <ClpSimplex.hpp>
+// *Exactness.* The code checks that the solution is an integral path, and recomputes its cost in
+// integers. If a solve stops early, the answer is kStopped. See also cbc_solver.h.
 #include <CoinPackedMatrix.hpp>
-#include <OsiClpSolverInterface.hpp>
-#include <chrono>
+#include <CoinPackedVector.hpp>
 #include <cmath>
 #include <map>
-#include <mutex>
 #include <numeric>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <utility>
 
+#include "sequencing/cbc_solver.h"
 #include "sequencing/rtsp.h"
 #include "sequencing/sequence_class.h"
 
 namespace grove::detail {
 namespace {
-
-constexpr double kIntegral = 1e-5;  // tolerance; a value further from an integer is an error
-
-// Process-wide lock that a thread holds while it solves a program. The constructor waits for the
-// lock and polls the limits; is_locked() is false if a limit was reached first.
-class SolverLock {
- public:
-  explicit SolverLock(const Limits& limits) : lock_(mutex(), std::defer_lock) {
-    while (!limits.stop_requested() && !lock_.try_lock())
-      std::this_thread::sleep_for(std::chrono::microseconds(500));
-  }
-  bool is_locked() const { return lock_.owns_lock(); }
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex the_mutex;
-    return the_mutex;
-  }
-  std::unique_lock<std::mutex> lock_;
-};
-
-// Stops the tree search between nodes when a limit is reached.
-class StopTree : public CbcEventHandler {
- public:
-  explicit StopTree(const Limits& limits) : limits_(&limits) {}
-  CbcAction event(CbcEvent) override { return limits_->stop_requested() ? stop : noAction; }
-  CbcEventHandler* clone() const override { return new StopTree(*this); }
-
- private:
-  const Limits* limits_;
-};
-
-// Stops a linear program between iterations. The result that CBC reports after such a stop is never
-// used.
-class StopLinear : public ClpEventHandler {
- public:
-  explicit StopLinear(const Limits& limits) : limits_(&limits) {}
-  int event(Event) override { return limits_->stop_requested() ? kStoppedByEvent : kContinue; }
-  ClpEventHandler* clone() const override { return new StopLinear(*this); }
-
- private:
-  static constexpr int kContinue = -1;
-  static constexpr int kStoppedByEvent = 5;
-  const Limits* limits_;
-};
 
 // A class without its prefix: the remaining stops, renumbered, and their cost matrix.
 struct Contracted {
@@ -117,14 +61,11 @@ Contracted contract(const CostMatrix& matrix, const ClassRoot& root) {
 // outside.
 class PathProgram {
  public:
-  enum class Outcome : std::uint8_t { kOptimal, kInfeasible, kStopped };
+  using Outcome = cbc::Outcome;
 
   PathProgram(const CostMatrix& matrix, const Limits& limits)
       : matrix_(matrix), limits_(limits), places_(matrix.stops() + 1) {
-    solver_.messageHandler()->setLogLevel(0);
-    solver_.setHintParam(OsiDoReducePrint, true);
-    StopLinear handler(limits_);
-    solver_.getModelPtr()->passInEventHandler(&handler);
+    cbc::prepare(solver_, limits_);
     load();
   }
 
@@ -145,17 +86,18 @@ class PathProgram {
   Sequence path() const {
     std::vector<int> next(places_, -1);
     for (std::size_t i = 0; i < legs_.size(); ++i) {
-      if (std::abs(solution_[i] - std::round(solution_[i])) > kIntegral) fail("a fraction");
+      if (std::abs(solution_[i] - std::round(solution_[i])) > cbc::kIntegral)
+        cbc::fail("a fraction");
       if (solution_[i] < 0.5) continue;
-      if (next[legs_[i].first] != -1) fail("two legs from one place");
+      if (next[legs_[i].first] != -1) cbc::fail("two legs from one place");
       next[legs_[i].first] = legs_[i].second;
     }
     Sequence path;
     for (int at = next[outside()]; at != outside() && std::ssize(path) < outside(); at = next[at]) {
-      if (at < 0) fail("an open end");
+      if (at < 0) cbc::fail("an open end");
       path.push_back(static_cast<Stop>(at));
     }
-    if (std::ssize(path) != outside()) fail("a path that misses a stop");
+    if (std::ssize(path) != outside()) cbc::fail("a path that misses a stop");
     return path;
   }
 
@@ -163,10 +105,6 @@ class PathProgram {
 
  private:
   using Leg = std::pair<int, int>;
-
-  [[noreturn]] static void fail(const char* what) {
-    throw std::runtime_error(std::string("CBC returned ") + what);
-  }
 
   int outside() const { return places_ - 1; }
   bool stopped() const { return limits_.stop_requested(); }
@@ -221,7 +159,7 @@ class PathProgram {
       return place;
     };
     for (std::size_t i = 0; i < legs_.size(); ++i)
-      if (x[i] > kIntegral) component[root(legs_[i].first)] = root(legs_[i].second);
+      if (x[i] > cbc::kIntegral) component[root(legs_[i].first)] = root(legs_[i].second);
     std::vector<StopSet> members(places_, 0);
     for (int stop = 0; stop < outside(); ++stop) members[root(stop)] |= bit(stop);
     members[root(outside())] = 0;
@@ -235,23 +173,12 @@ class PathProgram {
   }
 
   Outcome branch_and_bound() {
-    if (stopped()) return Outcome::kStopped;
-    CbcModel model(solver_);
-    model.setLogLevel(0);
-    model.solver()->messageHandler()->setLogLevel(0);
-    model.setAllowableGap(0);
-    model.setAllowableFractionGap(0);
-    model.setNumberThreads(0);  // runs in the calling thread
-    StopTree handler(limits_);
-    model.passInEventHandler(&handler);
-    if (limits_.seconds_left() < 1e6) model.setMaximumSeconds(limits_.seconds_left());
-    model.branchAndBound();
-    if (stopped()) return Outcome::kStopped;
-    if (model.isProvenInfeasible()) return Outcome::kInfeasible;
-    if (!model.isProvenOptimal() || model.bestSolution() == nullptr) fail("no verdict");
-    solution_.assign(model.bestSolution(), model.bestSolution() + legs_.size());
-    objective_ = model.getObjValue();
-    return Outcome::kOptimal;
+    cbc::IntegerSolution result = cbc::branch_and_bound(solver_, limits_);
+    if (result.outcome == Outcome::kOptimal) {
+      solution_ = std::move(result.values);
+      objective_ = result.objective;
+    }
+    return result.outcome;
   }
 
   const CostMatrix& matrix_;
@@ -277,7 +204,7 @@ class CbcRtsp : public RtspSolver {
     if (bound >= kNever) return {Kind::kInfeasible, kNever};
     if (bound > cutoff) return {Kind::kAboveCutoff, bound};
 
-    const SolverLock turn(limits_);
+    const cbc::SolverLock turn(limits_);
     if (!turn.is_locked()) return {Kind::kStopped, bound};
     PathProgram program(rest.matrix, limits_);
     switch (program.solve()) {
