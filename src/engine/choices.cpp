@@ -18,6 +18,7 @@
 #include "assignment/choice_bounds.h"
 #include "assignment/implied_tasks.h"
 #include "assignment/infeasible_choices.h"
+#include "assignment/instance_routes.h"
 #include "assignment/priced_instance.h"
 #include "assignment/route_bound.h"
 #include "engine/adaptations.h"
@@ -299,6 +300,7 @@ class WholePlans : public ForwardingObserver {
 
 Solution solve_with_choices(const Instance& instance, const SolveOptions& options,
                             const Limits& limits, RunObserver& observer) {
+  if (options.policy == Policy::kFixed) return solve(instance, options, limits, &observer);
   const auto reduced = WithoutImpliedTasks::make(instance);
   if (!reduced) return solve_choices(instance, options, limits, observer);
   WholePlans whole_plans(observer, *reduced);
@@ -311,10 +313,12 @@ Solution solve_with_choices(const Instance& instance, const SolveOptions& option
 
 void require_choices_fit(const Instance& instance, const SolveOptions& options) {
   if (options.policy == Policy::kFixed)
-    require_no_choices(instance, "policy fixed does not support", "policy free");
+    require_joint_routes(instance, "policy fixed does not support", "policy free");
   if (options.start) require_no_choices(instance, "a start plan does not support", "no start plan");
   if (!options.checkpoints.directory.empty() || options.resume)
     require_no_choices(instance, "checkpoints do not support", "no checkpoints");
+  if (options.proof && options.policy == Policy::kFixed)
+    require_no_choices(instance, "proofs with policy fixed do not support", "policy free");
   if (options.proof) require_certified_choices(instance);
 }
 

@@ -7,6 +7,7 @@
 #include "io/input_error.h"
 #include "model/fingerprint.h"
 #include "model/limits.h"
+#include "search/route_forest.h"
 #include "search/sequence_forest.h"
 #include "search/single_tree.h"
 
@@ -20,6 +21,8 @@ bool same_sequences(const Tree& a, const Tree& b) {
 
 std::unique_ptr<Forest> make_forest(const Problem& problem, AgentStopsCache& stops, NodePool& pool,
                                     const SolveOptions& options, const Limits& limits) {
+  if (options.policy == Policy::kFixed && problem.instance.has_choices())
+    return std::make_unique<RouteForest>(problem, pool, options.rtsp, limits);
   if (options.policy == Policy::kFixed)
     return std::make_unique<SequenceForest>(problem, pool, options.rtsp, limits);
   return std::make_unique<SingleTree>(

@@ -5,6 +5,7 @@
 #include <new>
 #include <string>
 
+#include "assignment/infeasible_choices.h"
 #include "engine/checkpoint.h"
 #include "engine/components.h"
 #include "engine/live_nodes.h"
@@ -134,25 +135,40 @@ Solution stopped_before_search(const Instance& instance, const SolveOptions& opt
   return solution;
 }
 
+// Only policy kFixed supports choices.
+void require_supported_choices(const Instance& instance, const SolveOptions& options) {
+  if (options.policy != Policy::kFixed)
+    require_no_choices(instance, "this engine does not support");
+}
+
+std::optional<Solution> presolve_with_choices(const Problem& problem, const SolveOptions& options,
+                                              const Limits& limits, RunObserver& observer) {
+  const Instance& instance = problem.instance;
+  if (!problem.distances.complete())
+    return stopped_before_search(instance, options, limits, observer);
+  const auto reason = instance.has_choices() ? infeasible_choices(instance, problem.distances)
+                                             : presolve_infeasibility(problem);
+  if (!reason) return std::nullopt;
+  observer.on_infeasible(*reason);
+  return without_search(options, Status::kInfeasible, "reason", *reason);
+}
+
 }  // namespace
 
 std::optional<Solution> presolve(const Problem& problem, const SolveOptions& options,
                                  const Limits& limits, RunObserver& observer) {
   require_no_choices(problem.instance, "this engine does not support");
-  if (!problem.distances.complete())
-    return stopped_before_search(problem.instance, options, limits, observer);
-  const auto reason = presolve_infeasibility(problem);
-  if (!reason) return std::nullopt;
-  observer.on_infeasible(*reason);
-  return without_search(options, Status::kInfeasible, "reason", *reason);
+  return presolve_with_choices(problem, options, limits, observer);
 }
 
 Solution solve(const Problem& problem, const SolveOptions& options, const Limits& limits,
                RunObserver* observer) {
   RunObserver silent;
   RunObserver& watcher = observer ? *observer : silent;
+  require_supported_choices(problem.instance, options);
   try {
-    if (auto answer = presolve(problem, options, limits, watcher)) return std::move(*answer);
+    if (auto answer = presolve_with_choices(problem, options, limits, watcher))
+      return std::move(*answer);
     return search(problem, options, limits, watcher);
   } catch (const std::bad_alloc&) {  // thrown before the search
     limits.memory_exhausted();

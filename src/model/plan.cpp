@@ -44,13 +44,11 @@ std::optional<WorkTime> work_begun(const Instance& instance, const Path& path, T
   return WorkTime{work.task, begin, begin + instance.task(work.task).duration};
 }
 
-}  // namespace
-
-AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
-                     std::span<const std::uint8_t> stops, const Path& path) {
+// The plan of the path without a sequence: its base states and task executions. The agent finishes
+// at its last arrival, or at the end of its last task execution.
+AgentPlan plan_without_sequence(const Instance& instance, const Path& path) {
   const World& world = instance.world();
   AgentPlan plan;
-  plan.sequence = instance.tasks_in_order(agent, stops);
   plan.path.reserve(path.size());
   plan.cost = last_arrival(world, path);
   for (Time t = 0; t < static_cast<Time>(path.size()); ++t) {
@@ -60,15 +58,63 @@ AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
       plan.cost = std::max(plan.cost, work->end);
     }
   }
+  return plan;
+}
+
+void end_at_cost(AgentPlan& plan) {
+  plan.path.resize(static_cast<std::size_t>(plan.cost) + 1, plan.path.back());
+}
+
+// The earliest time from `begin` on at which the path visits the task; for a task that takes time,
+// the end of its execution.
+Time visit_from(const Instance& instance, const AgentPlan& plan, TaskIndex task, Time begin) {
+  if (instance.task(task).duration > 0) return visit_time(instance, plan, task);
+  const auto is_there = [&](State state) {
+    return instance.world().place(state) == instance.task(task).cell;
+  };
+  const auto visit = std::find_if(plan.path.begin() + begin, plan.path.end(), is_there);
+  GROVE_CHECK(visit != plan.path.end(), "a path visits its tasks in their order");
+  return static_cast<Time>(visit - plan.path.begin());
+}
+
+}  // namespace
+
+AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
+                     std::span<const std::uint8_t> stops, const Path& path) {
+  AgentPlan plan = plan_without_sequence(instance, path);
+  plan.sequence = instance.tasks_in_order(agent, stops);
   const auto end = static_cast<Time>(path.size()) - 1;
   while (plan.cost < end && !instance.may_rest(agent, plan.path[plan.cost])) ++plan.cost;
-  plan.path.resize(static_cast<std::size_t>(plan.cost) + 1, plan.path.back());
+  end_at_cost(plan);
   GROVE_ASSERT(instance.may_rest(agent, plan.path.back()),
                "an agent's plan ends where it may rest");
   GROVE_ASSERT(std::ranges::is_permutation(plan.sequence, instance.agent(agent).tasks),
                "an agent's sequence holds each of its tasks once");
   GROVE_ASSERT(std::ranges::is_sorted(plan.work, {}, &WorkTime::begin),
                "task executions are in order of time");
+  return plan;
+}
+
+// Tasks that the agent must visit and that are not stops come immediately before its first visit on
+// their place.
+AgentPlan agent_plan_of_visits(const Instance& instance, AgentIndex agent,
+                               std::span<const TaskIndex> visits, const Path& path) {
+  AgentPlan plan = plan_without_sequence(instance, path);
+  end_at_cost(plan);
+  std::vector<WorkTime> stated;
+  Time now = 0;
+  for (const TaskIndex task : visits) {
+    const Task& of = instance.task(task);
+    for (const TaskIndex other : instance.agent(agent).tasks)
+      if (instance.task(other).cell == of.cell && std::ranges::count(visits, other) == 0 &&
+          std::ranges::count(plan.sequence, other) == 0)
+        plan.sequence.push_back(other);
+    plan.sequence.push_back(task);
+    now = visit_from(instance, plan, task, std::max(now, 0));
+    if (of.duration == 0 && of.has_stated_visits()) stated.push_back({task, now, now});
+  }
+  plan.work.insert(plan.work.end(), stated.begin(), stated.end());
+  std::ranges::stable_sort(plan.work, {}, &WorkTime::begin);
   return plan;
 }
 

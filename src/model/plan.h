@@ -57,6 +57,11 @@ struct AgentPlan {
 // the path realizes.
 AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
                      std::span<const std::uint8_t> stops, const Path& path);
+// As agent_plan(), for an agent that may choose tasks. `visits`: the tasks that the path visits, in
+// the order of the visits, with at least the stops of the agent. States each visit that has to be
+// stated, as early as possible. Precondition: the agent turns freely.
+AgentPlan agent_plan_of_visits(const Instance& instance, AgentIndex agent,
+                               std::span<const TaskIndex> visits, const Path& path);
 // As agent_plan(), but derives the sequence from the path: stops are ordered by their first visits.
 // If the agent rests on its last stop, the stop at the end of the path comes last. Precondition:
 // all tasks are visited, and the agent may rest at the end of the path.

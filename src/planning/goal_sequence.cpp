@@ -4,9 +4,23 @@
 #include <algorithm>
 
 namespace grove::detail {
+namespace {
+
+std::optional<PlaceOfRest> place_of_rest(const Instance& instance, const DistanceFields& distances,
+                                         AgentIndex agent) {
+  if (instance.rests_on_last_stop(agent)) return std::nullopt;
+  return PlaceOfRest{instance.agent(agent).goal.value_or(kNoPlace), distances.to_rest(agent)};
+}
+
+}  // namespace
 
 GoalSequence::GoalSequence(const Instance& instance, const DistanceFields& distances,
                            AgentIndex agent, const std::vector<TaskIndex>& stops)
+    : GoalSequence(instance, distances, agent, stops, place_of_rest(instance, distances, agent)) {}
+
+GoalSequence::GoalSequence(const Instance& instance, const DistanceFields& distances,
+                           AgentIndex agent, const std::vector<TaskIndex>& stops,
+                           const std::optional<PlaceOfRest>& rest)
     : start_(instance.agent(agent).start) {
   const World& world = instance.world();
   const Agent& who = instance.agent(agent);
@@ -22,8 +36,7 @@ GoalSequence::GoalSequence(const Instance& instance, const DistanceFields& dista
     add(task.cell, task.duration > 0 ? stop : -1, task.duration, distances.to_task(stop));
     has_work_ = has_work_ || task.duration > 0;
   }
-  if (!instance.rests_on_last_stop(agent))
-    add(who.goal.value_or(kNoPlace), -1, 0, distances.to_rest(agent));
+  if (rest) add(rest->place, -1, 0, rest->distances);
 
   after_goal_.assign(goals_.size(), 0);
   for (int k = size() - 2; k >= 0; --k) {

@@ -2,6 +2,7 @@
 // Goals of one agent in a fixed order, with the distances that guide its search.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "model/assert.h"
@@ -9,6 +10,12 @@
 #include "model/instance.h"
 
 namespace grove::detail {
+
+// Where an agent comes to rest.
+struct PlaceOfRest {
+  Place place = kNoPlace;  // kNoPlace: one of several places
+  DistanceView distances;  // to the states in which it may rest
+};
 
 // The goals of one agent under a complete task sequence: its stops in the order of the sequence,
 // then its place of rest. If the agent rests on its last stop, that stop is the last goal. There is
@@ -20,6 +27,10 @@ class GoalSequence {
   // this object.
   GoalSequence(const Instance& instance, const DistanceFields& distances, AgentIndex agent,
                const std::vector<TaskIndex>& stops);
+  // For agents with a choice: `stops` are the tasks that it visits, in the order of visits. Without
+  // `rest`, it rests on the last one. The distances of `rest` must outlive this object.
+  GoalSequence(const Instance& instance, const DistanceFields& distances, AgentIndex agent,
+               const std::vector<TaskIndex>& stops, const std::optional<PlaceOfRest>& rest);
 
   State start() const { return start_; }
   int size() const { return static_cast<int>(goals_.size()); }

@@ -19,6 +19,16 @@ bool is_step(const World& world, State from, State to) {
   return from == to || std::ranges::count(world.moves(from), to) > 0;
 }
 
+// An agent without a destination may also rest on an optional task that it has visited.
+bool may_rest_at_end(const Instance& instance, AgentIndex index, State state) {
+  const Agent& agent = instance.agent(index);
+  const auto is_here = [&](TaskIndex task) {
+    return instance.task(task).cell == instance.world().place(state);
+  };
+  return instance.may_rest(index, state) ||
+         (!agent.has_destination() && std::ranges::any_of(agent.options, is_here));
+}
+
 void audit_walk(const Instance& instance, AgentIndex index, const Path& path) {
   const Agent& agent = instance.agent(index);
   const World& world = instance.world();
@@ -29,7 +39,7 @@ void audit_walk(const Instance& instance, AgentIndex index, const Path& path) {
     return std::ranges::any_of(path, [&](State state) { return instance.is_visited(task, state); });
   };
   require(std::ranges::all_of(agent.tasks, visited), "agent {} leaves a task out", index);
-  require(instance.may_rest(index, path.back()), "agent {} ends where it may not", index);
+  require(may_rest_at_end(instance, index, path.back()), "agent {} ends where it may not", index);
 }
 
 }  // namespace

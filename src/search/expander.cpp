@@ -160,8 +160,10 @@ Plan Expander::plan(const Node& node) {
   Plan plan;
   for (AgentIndex i = 0; i < problem_.instance.agent_count(); ++i) {
     const Path& path = view_.path(i);
-    const Sequence sequence = planner_.sequence(i, *node.tree().orders[i], path);
-    plan.agents.push_back(agent_plan(problem_.instance, i, sequence, path));
+    const AgentSequencing& order = *node.tree().orders[i];
+    plan.agents.push_back(
+        order.visits ? agent_plan_of_visits(problem_.instance, i, *order.visits, path)
+                     : agent_plan(problem_.instance, i, planner_.sequence(i, order, path), path));
     plan.cost += plan.agents.back().cost;
   }
   GROVE_CHECK(plan.cost == node.cost(), "the plan of a node has the node's cost");

@@ -28,6 +28,9 @@ struct AgentSequencing {
   SequenceClass sequences;            // in the paper's forest: a complete prefix
   std::optional<GoalSequence> goals;  // of a complete prefix; nullopt: free order
   PackedPath path;                    // a shortest one for `sequences`, without constraints
+  // The tasks that the agent visits, in this order, if it may choose tasks. nullopt: all its tasks,
+  // in an order of `sequences`.
+  std::optional<std::vector<TaskIndex>> visits = std::nullopt;
 };
 
 // One tree of the forest, which holds the plans of one class of joint task sequences. Immutable:

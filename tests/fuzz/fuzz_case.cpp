@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "engine/method.h"
 #include "tests/fuzz/random.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/random_choices.h"
@@ -216,8 +217,12 @@ FuzzCase FuzzCase::parse(std::string_view text) {
 
 FuzzCase with_choices(FuzzCase fuzz_case, std::uint64_t seed) {
   fuzz_case.choices = seed;
-  if (fuzz_case.options.policy == Policy::kFixed) fuzz_case.options.policy = Policy::kAuto;
   fuzz_case.options.low_level = LowLevel::kOwn;
+  try {
+    require_fit(Method::kAuto, fuzz_case.build(), fuzz_case.options);
+  } catch (const InstanceError&) {  // an agent with a choice that turns
+    fuzz_case.options.policy = Policy::kAuto;
+  }
   return fuzz_case;
 }
 

@@ -76,6 +76,24 @@ bool same_answer(const Solution& a, const Solution& b) {
   return std::ranges::equal(a.plan->agents, b.plan->agents, {}, &AgentPlan::path, &AgentPlan::path);
 }
 
+// With choices and policy free, the searches of assignments divide the time.
+bool divides_time(const Instance& instance, const SolveOptions& options) {
+  return instance.has_choices() && options.policy != Policy::kFixed;
+}
+
+// With policy fixed, a run with choices reaches the requested tolerance like any other run.
+void judge_effort(const Instance& instance, const FuzzCase& fuzz_case, const oracle::Answer& truth,
+                  const Run& run, CaseResult& result) {
+  const SolveOptions& options = fuzz_case.options;
+  const Status status = run.solution.status;
+  if (!instance.has_choices() || divides_time(instance, options) || run.stopped || !truth.plan ||
+      options.omega.is_infinite())
+    return;
+  if (status == Status::kUnknown || status == Status::kFeasible)
+    result.complaints.push_back(
+        fmt::format("status {} although no limit was reached", to_string(status)));
+}
+
 void judge(const Instance& instance, const FuzzCase& fuzz_case, const oracle::Answer& truth,
            const Solver& solver, milliseconds patience, CaseResult& result) {
   if (!truth.plan) patience /= kWithoutPlan;
@@ -85,13 +103,13 @@ void judge(const Instance& instance, const FuzzCase& fuzz_case, const oracle::An
   result.stopped = first.stopped;
   result.complaints =
       false_claims(instance, truth, fuzz_case.options.omega, first.solution, first.stopped);
+  judge_effort(instance, fuzz_case, truth, first, result);
   if (first.overrun > kAllowedOverrun)
     result.complaints.push_back(fmt::format("returned {} s after the deadline",
                                             std::chrono::duration<double>(first.overrun).count()));
   SolveOptions& options = again.options;
-  // With choices, the searches of assignments divide the time.
   const bool repeatable =
-      options.deterministic || (options.threads == 1 && !instance.has_choices());
+      options.deterministic || (options.threads == 1 && !divides_time(instance, options));
   if (first.stopped || first.duration > kWorthRepeating || !repeatable) return;
   if (options.deterministic) options.threads = options.threads % 4 + 1;
   const Run second = run(instance, again, truth, patience, solver);

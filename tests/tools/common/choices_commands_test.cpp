@@ -62,20 +62,20 @@ class ChoicesCommands : public ::testing::Test {
 };
 
 TEST_F(ChoicesCommands, SolveFindsValidPlans) {
-  for (const std::string name : {"goals", "need"}) {
-    const ProcessResult solved =
-        run({"solve", name + ".cts.json", "--output", "x.plan.json", "--omega", "0"});
-    EXPECT_EQ(solved.exit_code, 0) << solved.err;
-    EXPECT_EQ(run({"check", name + ".cts.json", "x.plan.json"}).exit_code, 0);
-    std::filesystem::remove(directory_.path() / "x.plan.json");
-  }
+  for (const std::string name : {"goals", "need"})
+    for (const std::string policy : {"free", "fixed"}) {
+      const ProcessResult solved = run({"solve", name + ".cts.json", "--output", "x.plan.json",
+                                        "--omega", "0", "--policy", policy});
+      EXPECT_EQ(solved.exit_code, 0) << solved.err;
+      EXPECT_EQ(run({"check", name + ".cts.json", "x.plan.json"}).exit_code, 0);
+      std::filesystem::remove(directory_.path() / "x.plan.json");
+    }
 }
 
 TEST_F(ChoicesCommands, SolveRefusesWhatDoesNotSupportChoices) {
   const std::size_t before = files().size();
   const std::vector<std::vector<std::string>> cases{
       {"checkpoints do not support", "--checkpoint", "state"},
-      {"policy fixed does not support", "--policy", "fixed"},
       {"method mgcbs does not support", "--method", "mgcbs"},
       {"method cts-cbs-b does not support", "--method", "cts-cbs-b"},
       {"a start plan does not support", "--start"}};
