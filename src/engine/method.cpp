@@ -31,6 +31,8 @@ constexpr Row kMethods[] = {
     {Method::kHcbs, "hcbs", LowLevel::kSingleLegs},
     {Method::kMgcbs, "mgcbs", LowLevel::kTimeIntervalForest},
     {Method::kSCbs, "s-cbs"},
+    {Method::kCbsTa, "cbs-ta"},
+    {Method::kCbsTs, "cbs-ts"},
 };
 
 const Row& row_of(Method method) {
@@ -43,6 +45,21 @@ const Row& row_of(Method method) {
 
 bool is_composed(Method method) {
   return method == Method::kCtsCbsB || method == Method::kCtsCbsC;
+}
+
+bool assigns(Method method) {
+  return method == Method::kCbsTa || method == Method::kCbsTs;
+}
+
+void set_options_for_assignments(Method method, SolveOptions& options) {
+  if (options.policy == Policy::kFree)
+    refuse(method, "searches one tree per assignment; expected policy fixed, or no policy");
+  options.policy = Policy::kFixed;
+  if (method != Method::kCbsTs) return;
+  if (!is_built(RtspBackend::kCbc)) refuse(method, "requires a build with CBC");
+  if (options.rtsp != RtspBackend::kAuto && options.rtsp != RtspBackend::kCbc)
+    refuse(method, "solves integer programs; expected rtsp cbc, or no rtsp");
+  options.rtsp = RtspBackend::kCbc;
 }
 
 }  // namespace
@@ -78,6 +95,7 @@ SolveOptions options_of(Method method, SolveOptions options) {
     options.policy = Policy::kFixed;
     options.omega = Omega::infinite();
   }
+  if (assigns(method)) set_options_for_assignments(method, options);
   const bool keeps_state = !options.checkpoints.directory.empty() || options.resume != nullptr;
   if (keeps_state && (is_other || is_composed(method)))
     refuse(method, "does not support checkpoints; expected no checkpoint folder");
@@ -101,7 +119,7 @@ void require_published_problem(Method method, const Instance& instance) {
 }
 
 void require_fit(Method method, const Instance& instance, const SolveOptions& options) {
-  if (method != Method::kAuto)
+  if (method != Method::kAuto && !assigns(method))
     require_no_choices(instance, fmt::format("method {} does not support", name_of(method)),
                        "method auto");
   require_choices_fit(instance, options);
@@ -110,8 +128,11 @@ void require_fit(Method method, const Instance& instance, const SolveOptions& op
     refuse(method,
            "requires an agent without a goal (MG-MAPF); expected another method (CTS-CBS itself is "
            "auto with policy fixed)");
-  const bool is_published = options.low_level != LowLevel::kOwn || is_adaptation(method);
+  const bool is_published =
+      options.low_level != LowLevel::kOwn || is_adaptation(method) || assigns(method);
   if (is_published) require_published_problem(method, instance);
+  if (method == Method::kCbsTa && instance.task_count() > 0)
+    refuse(method, "supports only instances without tasks; expected method cbs-ts");
   if (options.start && is_composed(method))
     refuse(method, "finds its own first plan; expected no start plan");
 }

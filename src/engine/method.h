@@ -25,6 +25,9 @@ enum class Method : std::uint8_t {
   kHcbs,
   kMgcbs,
   kSCbs,  // CTS-CBS restricted to the tree of the best joint sequence (w = inf; paper, section IV)
+  // Plain CBS with one tree per assignment, in ascending order of cost (search/route_forest.h).
+  kCbsTa,  // CBS-TA (Hoenig et al. 2018): agents choose their goals
+  kCbsTs,  // CBS-TS (arXiv 2510.21738): and visit tasks; assignments by integer programs
 };
 
 std::vector<Method> all_methods();

@@ -16,6 +16,7 @@
 #include "tests/support/clocks.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
+#include "tests/support/random_choices.h"
 
 namespace grove::detail::fuzz {
 namespace methods_test {
@@ -81,6 +82,60 @@ INSTANTIATE_TEST_SUITE_P(, ExactMethods,
                            std::erase(name, '-');
                            return name;
                          });
+
+// A random instance with choices that the method accepts; nullopt: this seed has none.
+std::optional<Instance> instance_for(Method method, std::uint64_t seed) {
+  TinyInstance tiny = random_instance(seed);
+  if (method == Method::kCbsTa) tiny.tasks.clear();
+  try {
+    Instance instance = with_random_choices(tiny.build(), seed);
+    require_fit(method, instance, options_of(method, {}));
+    if (instance.has_choices()) return instance;
+  } catch (const std::invalid_argument&) {  // a refusal
+  }
+  return std::nullopt;
+}
+
+class AssignmentMethods : public ::testing::TestWithParam<Method> {};
+
+TEST_P(AssignmentMethods, FindTheOptimumOfInstancesWithChoices) {
+  if (GetParam() == Method::kCbsTs && !is_built(RtspBackend::kCbc))
+    GTEST_SKIP() << "Grove was built without CBC";
+  int solvable = 0;
+  int ended = 0;
+  const std::uint64_t seeds = testing::fuzz_rounds(150);
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const auto instance = instance_for(GetParam(), seed);
+    if (!instance) continue;
+    const oracle::Answer truth = oracle::solve_jointly(*instance);
+    if (!truth.plan) continue;
+    ++solvable;
+    const auto [solution, stopped] = run(GetParam(), *instance, {});
+    EXPECT_EQ(false_claims(*instance, truth, {}, solution, stopped), std::vector<std::string>());
+    if (stopped) continue;
+    ++ended;
+    EXPECT_EQ(solution.status, Status::kOptimal);
+  }
+  EXPECT_GT(solvable, 10);
+  EXPECT_GT(ended, solvable * 8 / 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(, AssignmentMethods, ::testing::Values(Method::kCbsTa, Method::kCbsTs),
+                         [](const auto& all) {
+                           std::string name(name_of(all.param));
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST(MethodsForAssignments, RefuseWhatTheyDoNotSupport) {
+  SolveOptions free;
+  free.policy = Policy::kFree;
+  EXPECT_THROW(options_of(Method::kCbsTa, free), std::invalid_argument);
+  const Instance with_task = testing::instance_of({"..."}, {{{0, 0}, Position{2, 0}, {{1, 0}}}});
+  EXPECT_THROW(require_fit(Method::kCbsTa, with_task, options_of(Method::kCbsTa, {})),
+               std::invalid_argument);
+}
 
 // Returns the least cost of one agent with destination `goal` and without the task `end`, ignoring
 // all other agents; kInfiniteCost if the oracle finds no plan.
