@@ -23,7 +23,8 @@ struct Problem;          // planning/problem.h
 // The part of the agents' sequences that a tree of the forest fixes.
 enum class Policy : std::uint8_t {
   kAuto,   // the engine's choice: kFree
-  kFixed,  // one complete joint task sequence per tree: the paper's CTS-CBS
+  kFixed,  // one complete joint task sequence (with choices: joint route) per tree: the paper's
+           // CTS-CBS
   kFree,   // one tree for all sequences; the low level chooses the order
 };
 

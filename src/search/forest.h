@@ -9,8 +9,8 @@
 namespace grove::detail {
 
 // The constraint trees of a run, which are instantiated one by one on request. Together they hold
-// every plan. The implementation decides what a tree fixes (sequence_forest.h, single_tree.h). Must
-// outlive the nodes of its trees. One thread at a time.
+// every plan. The implementation decides what a tree fixes (sequence_forest.h, route_forest.h,
+// single_tree.h). Must outlive the nodes of its trees. One thread at a time.
 class Forest {
  public:
   Forest() = default;
