@@ -95,7 +95,7 @@ class RouteBound::Relaxation {
     }
   }
 
-  bool can_improve() const { return lower_bound() < cost_ && factor_ > kLastFactor; }
+  bool can_improve() const { return (!best_ || lower_bound() < cost_) && factor_ > kLastFactor; }
 
   Cost lower_bound() const {
     return best_ ? std::max<Cost>(0, (best_->bound + kUnit - 1) / kUnit) : 0;

@@ -101,5 +101,22 @@ TEST(AllAssignments, IdleAgentOnAGoalWithAPrice) {
   }
 }
 
+// Routes do not contain the turn that the agent completes before it rests.
+TEST(AllAssignments, RoutesWithoutCost) {
+  InstanceBuilder builder(Grid(3, 1, std::vector<bool>(3, true)));
+  builder.add_agent(
+      {.id = "turning",
+       .start = {.place = 0, .heading = Heading::kNorth, .to = Heading::kWest, .steps = 2},
+       .goal = {},
+       .motion = {.turn_steps = 3}});
+  builder.add_agent("other", Place{2}, std::nullopt);
+  builder.add_task("t", Place{2}, std::vector<std::string>{"turning", "other"}, 0, 1);
+  const Instance instance = std::move(builder).build();
+  const auto found = search(instance, 1, 100'000);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->is_over);
+  EXPECT_EQ(found->lower_bound, 1);
+}
+
 }  // namespace all_assignments_test
 }  // namespace grove::detail
