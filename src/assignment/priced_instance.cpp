@@ -14,6 +14,9 @@
 // that take time have their own stops.) An agent is at the stop of t before it begins a task that
 // takes time on the same place, unless it starts at work there; this case is refused.
 //
+// An agent that starts while it executes an optional task t completes it, and must count it. Then
+// m_t = 0, because the visits of others that rest on its place can exceed the need.
+//
 // If fewer than n_t agents are left in C_t, or an agent with a choice of goals has none left, there
 // is no plan below the cutoff.
 //
@@ -79,6 +82,7 @@ class Reformulation {
       : instance_(instance), choices_(std::move(choices)), multipliers_(std::move(multipliers)) {}
 
   Pricing make(std::optional<PricedInstance>& priced) {
+    keep_begun_visits();
     for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent)
       if (!has_room(agent)) return Pricing::kNotPossible;
     remove_goals_of_others();
@@ -106,6 +110,16 @@ class Reformulation {
  private:
   bool may_visit(AgentIndex agent, TaskIndex task) const {
     return std::ranges::binary_search(choices_[agent].visits, task);
+  }
+
+  // Every plan states the visit of an agent that starts while it executes an optional task.
+  void keep_begun_visits() {
+    for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
+      const auto begun = task_at_start(instance_, agent);
+      if (!begun || instance_.task(*begun).needs_all() || may_visit(agent, *begun)) continue;
+      std::vector<TaskIndex>& visits = choices_[agent].visits;
+      visits.insert(std::ranges::upper_bound(visits, *begun), *begun);
+    }
   }
 
   bool has_room(AgentIndex index) const {
@@ -161,12 +175,14 @@ class Reformulation {
       }
   }
 
-  // 0 if the task shares a stop. At most kMaxPrice, so that sums are far below kNever.
+  // 0 if the task shares a stop, or if an agent starts while it executes the task. At most
+  // kMaxPrice, so that sums are far below kNever.
   Time price_of(const Instance& priced, TaskIndex task) const {
-    const bool shares_stop = std::ranges::any_of(priced.task(task).agents, [&](AgentIndex agent) {
-      return tasks_at(priced, agent, stop_of(priced, agent, task)).size() > 1;
+    const bool is_free = std::ranges::any_of(priced.task(task).agents, [&](AgentIndex agent) {
+      return task_at_start(instance_, agent) == task ||
+             tasks_at(priced, agent, stop_of(priced, agent, task)).size() > 1;
     });
-    return shares_stop ? 0 : std::min(multipliers_.on_visits[task], kMaxPrice);
+    return is_free ? 0 : std::min(multipliers_.on_visits[task], kMaxPrice);
   }
 
   // The price of leaving out a stop: kNever if the agent must visit one of its tasks.
@@ -174,7 +190,8 @@ class Reformulation {
     Time price = 0;
     for (const TaskIndex task : tasks_at(priced, agent, stop)) {
       const Task& of = priced.task(task);
-      if (static_cast<int>(of.agents.size()) == instance_.task(task).need) return kNever;
+      const bool is_needed = static_cast<int>(of.agents.size()) == instance_.task(task).need;
+      if (is_needed || task_at_start(instance_, agent) == task) return kNever;
       price += price_of(priced, task);
     }
     return price;
@@ -305,17 +322,8 @@ std::optional<Choice> find_uncertified_choice(const Instance& instance) {
   return std::nullopt;
 }
 
-bool can_price_choices(const Instance& instance) {
-  for (AgentIndex index = 0; index < instance.agent_count(); ++index) {
-    if (!instance.agent(index).has_choice()) continue;
-    if (starts_with_option(instance, index)) return false;
-  }
-  return true;
-}
-
 Pricing price_choices(const Instance& instance, RouteBound& bound, Cost cutoff, Fixing fixing,
                       const Limits& limits, std::optional<PricedInstance>& priced) {
-  if (!can_price_choices(instance)) return Pricing::kNotPossible;
   auto choices =
       fixing == Fixing::kNone ? all_choices(instance) : bound.choices_below(cutoff, limits);
   if (!choices) return Pricing::kNotPossible;

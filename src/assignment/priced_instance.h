@@ -33,10 +33,6 @@ struct PricedInstance {
 inline constexpr int kMaxCertifiedTasks = 63;
 std::optional<Choice> find_uncertified_choice(const Instance& instance);
 
-// Returns false if no choices of the instance can be priced, because an agent starts while it
-// executes an optional task.
-bool can_price_choices(const Instance& instance);
-
 // The result of price_choices().
 enum class Pricing : std::uint8_t {
   kDone,
@@ -48,9 +44,9 @@ enum class Pricing : std::uint8_t {
 enum class Fixing : std::uint8_t { kByReducedCosts, kNone };
 
 // Makes the reformulation for plans that cost less than `cutoff`. The lower the cutoff, the fewer
-// choices are left, unless `fixing` is kNone. kNotPossible: can_price_choices() is false; or an
-// agent with a choice would have more than kMaxTasksPerAgent tasks; or it starts at work and has a
-// task without a duration on its start; or `bound` has no result; or a limit is reached.
+// choices are left, unless `fixing` is kNone. kNotPossible: an agent with a choice would have more
+// than kMaxTasksPerAgent tasks; or it starts at work and has a task without a duration on its
+// start; or `bound` has no result; or a limit is reached.
 Pricing price_choices(const Instance& instance, RouteBound& bound, Cost cutoff, Fixing fixing,
                       const Limits& limits, std::optional<PricedInstance>& priced);
 

@@ -68,7 +68,6 @@ class ChoicesRun {
                Cost bound, double spent) {
     bound_ = bound;
     if (!options_.deterministic) spent_on_bounds_ = spent;
-    if (!can_price_choices(instance_)) cutoff_margin_ = 0;
     best_ = solve_one(first, can_search_all() ? kFirstShareWithAll : kFirstShare);
     while (!limits_.stop_requested() && !is_over() && (can_search_all() || can_search_next())) {
       const bool is_turn_of_bounds =

@@ -70,7 +70,7 @@ TEST(SolveWithChoices, AgreesWithTheOracle) {
     optimal += solution.status == Status::kOptimal ? 1 : 0;
   }
   EXPECT_GT(instances, 25);
-  EXPECT_GT(20 * optimal, 19 * instances);  // the others begin at work
+  EXPECT_GT(20 * optimal, 19 * instances);  // the others start at work
 }
 
 // The bound of a search without cores would hold, but no formula proves it.
