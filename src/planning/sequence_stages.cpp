@@ -33,20 +33,20 @@
 //
 // *Task executions.* A stop that takes time is counted when its execution is completed. An agent
 // starts an execution only on a stop that may be counted next. The execution ends with this count,
-// because nothing else can be counted during it (if a place has stops that take time, it has no
-// other stops: Instance). An execution that does not count would be equivalent to waiting. A task
-// is not executed again at the end of the path. So if a stop takes time, an agent without a
-// destination may rest on any of its own places, no matter which stop it counted last. As with a
-// destination, the order then does not determine where the agent rests.
+// because nothing else can be counted during it: its states are those of its own stop, also if the
+// place has a stop that takes no time. An execution that does not count would be equivalent to
+// waiting. A task is not executed again at the end of the path. So if a stop takes time, an agent
+// without a destination may rest on any of its own places, no matter which stop it counted last. As
+// with a destination, the order then does not determine where the agent rests.
 //
 // *Distance.* The distance from a state is the least dist(state, u) + onward(u) over the stops u
 // that may be next, where onward(u) is the least cost from u through the other stops left. Let D(u,
 // w) be the greatest distance to w from any state on u. *Claim: if onward(u) >= D(u, w) +
 // onward(w), then u is not needed if w is kept, for any state.* *Proof.* dist(state, w) <=
 // dist(state, u) + D(u, w). *Consequence.* Usually only a few stops are needed. (No two stops rule
-// out each other: on two places D is positive, and two stops on one place take time.) Onward costs
-// are minima over the states in which the agent can leave a stop, so they never exceed the actual
-// cost.
+// out each other: on two places D is positive, and of two stops on one place at least one takes
+// time, so that D to it is positive.) Onward costs are minima over the states in which the agent
+// can leave a stop, so they never exceed the actual cost.
 //
 // *Ports.* If agents turn and the world is of moderate size, each stop has four ports
 // (cost_matrix.h), and all of the above holds for ports instead of stops. With ports, onward costs
