@@ -295,7 +295,7 @@ class RefusedFiles(Case):
 
     def refused_by_verify(self, kind, value):
         """Returns whether grove-verify refuses the instance. The certificate is empty."""
-        instance = self.write("broken.cts.json", value if kind == "instance" else
+        instance = self.write("broken.cts.json", value if kind != "roadmap" else
                               {**load(DATA / "yard.cts.json"), "roadmap": "broken.roadmap.json"})
         if kind == "roadmap":
             self.write("broken.roadmap.json", value)
@@ -307,13 +307,13 @@ class RefusedFiles(Case):
     def assert_refused(self, kind, value):
         self.assertTrue(self.schema_errors(kind, value), "the schema accepts it")
         self.assertTrue(self.refused_by_grove(kind, value), "grove accepts it")
-        if VERIFY and kind in ("instance", "roadmap"):
+        if VERIFY and kind in ("instance", "choices", "roadmap"):
             self.assertTrue(self.refused_by_verify(kind, value), "grove-verify accepts it")
 
     def assert_accepted(self, kind, value):
         self.assert_valid(kind, value)
         self.assertFalse(self.refused_by_grove(kind, value), kind)
-        if VERIFY and kind in ("instance", "roadmap"):
+        if VERIFY and kind in ("instance", "choices", "roadmap"):
             self.assertFalse(self.refused_by_verify(kind, value), kind)
 
     def refused_by_grove(self, kind, value):
@@ -350,7 +350,7 @@ class RefusedFiles(Case):
             shop["tasks"].append({"id": "begun", "cell": [4, 2], "agents": ["spare"], "duration": 9})
             shop["agents"][2]["working"] = {"task": "begun", "done": 2}
             return shop
-        if kind == "choices":  # no method solves these instances yet
+        if kind == "choices":
             shop = load(DATA / "shop.cts.json")
             shop["agents"][0]["goals"] = [shop["agents"][0].pop("goal"), [1, 0]]
             shop["tasks"][0].update(agents="*", need=1)
@@ -436,11 +436,6 @@ class RefusedFiles(Case):
         self.assert_valid("choices", load(instance))
         self.assert_valid("plan", plan)
         grove("check", instance, self.write("any.plan.json", plan), cwd=self.folder)
-
-    def test_verifier_refuses_choices(self):
-        if not VERIFY:
-            self.skipTest("no grove-verify")
-        self.assertTrue(self.refused_by_verify("instance", self.valid("choices")))
 
     def test_unknown_keys_are_refused_and_remarks_accepted(self):
         """Checks that every object refuses unknown keys and accepts keys for remarks."""
