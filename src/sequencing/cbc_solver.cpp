@@ -56,6 +56,9 @@ void fail(const char* what) {
 void prepare(OsiClpSolverInterface& solver, const Limits& limits) {
   solver.messageHandler()->setLogLevel(0);
   solver.setHintParam(OsiDoReducePrint, true);
+  // The presolve of CoinUtils leaks memory, and the programs are small.
+  solver.setHintParam(OsiDoPresolveInInitial, false, OsiHintDo);
+  solver.setHintParam(OsiDoPresolveInResolve, false, OsiHintDo);
   StopLinear handler(limits);
   solver.getModelPtr()->passInEventHandler(&handler);
 }
