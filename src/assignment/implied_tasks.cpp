@@ -20,7 +20,6 @@
 #include "assignment/implied_tasks.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -62,12 +61,6 @@ Instance without_tasks(const Instance& whole, const std::vector<TaskIndex>& kept
   return std::move(builder).build();
 }
 
-std::vector<TaskIndex> all_tasks(const Instance& instance) {
-  std::vector<TaskIndex> tasks(static_cast<std::size_t>(instance.task_count()));
-  for (TaskIndex i = 0; i < instance.task_count(); ++i) tasks[i] = i;
-  return tasks;
-}
-
 }  // namespace
 
 std::vector<WithoutImpliedTasks::Implied> WithoutImpliedTasks::find(const Instance& whole) {
@@ -89,9 +82,9 @@ std::vector<WithoutImpliedTasks::Implied> WithoutImpliedTasks::find(const Instan
 std::optional<WithoutImpliedTasks> WithoutImpliedTasks::make(const Instance& whole) {
   std::vector<Implied> implied = find(whole);
   if (implied.empty()) return std::nullopt;
-  std::vector<TaskIndex> kept = all_tasks(whole);
-  std::erase_if(
-      kept, [&](TaskIndex task) { return std::ranges::count(implied, task, &Implied::task) > 0; });
+  std::vector<TaskIndex> kept;
+  for (TaskIndex task = 0; task < whole.task_count(); ++task)
+    if (std::ranges::count(implied, task, &Implied::task) == 0) kept.push_back(task);
   return WithoutImpliedTasks(whole, std::move(implied), std::move(kept));
 }
 

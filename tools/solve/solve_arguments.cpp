@@ -131,12 +131,10 @@ void add_method_options(CLI::App& app, SolveArguments& a) {
          "--method", a.method,
          "auto: Grove's own search. For comparison: plain CBS with the low level of optimal-cbs, "
          "hcbs or mgcbs; s-cbs: CTS-CBS with omega inf and policy fixed; cbs-ta and cbs-ts: plain "
-         "CBS "
-         "with one tree per assignment of goals, and of goals and tasks. For agents without a goal "
-         "(only 'grove solve'): cts-cbs-a: the same as auto; cts-cbs-b: one task of each such "
-         "agent "
-         "becomes its goal; cts-cbs-c: cts-cbs-a for two thirds of the time, then cts-cbs-b. The "
-         "paper's methods need --policy fixed")
+         "CBS with one tree per assignment of goals, and of goals and tasks. For agents without a "
+         "goal (only 'grove solve'): cts-cbs-a: the same as auto; cts-cbs-b: one task of each such "
+         "agent becomes its goal; cts-cbs-c: cts-cbs-a for two thirds of the time, then cts-cbs-b. "
+         "The paper's methods need --policy fixed")
       ->type_name("METHOD")
       ->check(CLI::Validator(check_method, ""))
       ->capture_default_str();
