@@ -3,8 +3,8 @@
 //
 // *Base.* Let b(a, g) be a lower bound on the cost of a path of agent a that visits the tasks that
 // a must visit and ends on g. The agents end on different goals, so the sum of the base costs is at
-// least the least cost of an assignment of goals to agents. Agents without a destination add the
-// least cost of their required tasks.
+// least the least cost of an assignment of goals to agents. If there is no assignment of finite
+// cost, there is no plan. Agents without a destination add the least cost of their required tasks.
 //
 // *Detours.* Let an agent that turns freely visit an optional task t between its stops i and j (a
 // stop is the start, a task or the goal). Without t it could go from i to j directly, so its cost
@@ -27,6 +27,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -50,6 +51,7 @@ class Bound {
 
   Cost total() {
     Cost sum = base();
+    if (sum >= kInfiniteCost) return kInfiniteCost;
     for (TaskIndex task = 0; task < instance_.task_count(); ++task)
       if (!instance_.task(task).needs_all() && !limits_.stop_requested())
         sum += sum_of_detours(task);
@@ -65,9 +67,10 @@ class Bound {
       if (!instance_.agent(agent).has_destination()) sum += least[agent];
     }
     const auto choice = cheapest_goals(instance_, [&](AgentIndex agent, Place goal) {
-      return std::max(least[agent], cost_to_end_on(agent, goal));
+      const Cost cost = std::max(least[agent], cost_to_end_on(agent, goal));
+      return cost < kNever ? std::optional(cost) : std::nullopt;
     });
-    return choice ? sum + choice->cost : sum;
+    return choice ? sum + choice->cost : kInfiniteCost;
   }
 
   // A lower bound on the cost of the required tasks, wherever the agent ends.

@@ -9,9 +9,9 @@
 
 namespace grove::detail {
 
-// Returns a proven lower bound on the cost of every plan, without conflicts between agents. The
-// proof is at the head of choice_bounds.cpp. `distances` must be complete. If a limit is reached,
-// the bound can be lower.
+// Returns a proven lower bound on the cost of every plan, without conflicts between agents;
+// kInfiniteCost: there is no plan. The proof is at the head of choice_bounds.cpp. `distances` must
+// be complete. If a limit is reached, the bound can be lower.
 Cost lower_bound_of_choices(const Instance& instance, const DistanceFields& distances,
                             const Limits& limits);
 

@@ -65,6 +65,7 @@ class AssignedRun {
  private:
   Solution search_two() {
     bound_ = lower_bound_of_choices(search_.instance, search_.distances, part(kShareForBound));
+    if (bound_ >= kInfiniteCost) return without_ways_to_goals();
     AssignmentSearch assignments(search_.instance, search_.distances, options_.seed,
                                  options_.visit_weight);
     const auto first = assignments.first_from(search_.old, limits_);
@@ -79,6 +80,12 @@ class AssignedRun {
       if (is_better_than_old(solution)) return solution;
     }
     return kept_plan(search_one(last, limits_));
+  }
+
+  Solution without_ways_to_goals() {
+    merged_.infeasible(kNoWayToGoals);
+    bound_ = 0;
+    return infeasible_solution(options_, kNoWayToGoals);
   }
 
   Assignment improved(AssignmentSearch& assignments) const {

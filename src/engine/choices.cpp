@@ -254,6 +254,7 @@ Solution assign_and_solve(const Instance& instance, const SolveOptions& options,
   if (const auto reason = infeasible_choices(instance, distances))
     return infeasible_solution(options, *reason, observer);
   Cost bound = lower_bound_of_choices(instance, distances, limits);
+  if (bound >= kInfiniteCost) return infeasible_solution(options, kNoWayToGoals, observer);
   AssignmentSearch assignments(instance, distances, options.seed);
   const auto first = assignments.first(limits);
   if (!first) return without_assignment(options, limits, options.proof ? 0 : bound);

@@ -21,6 +21,10 @@ Restriction restriction_to(const Instance& instance, const Assignment& assignmen
 Solution infeasible_solution(const SolveOptions& options, const std::string& reason,
                              RunObserver& observer) {
   observer.on_infeasible(reason);
+  return infeasible_solution(options, reason);
+}
+
+Solution infeasible_solution(const SolveOptions& options, const std::string& reason) {
   Solution solution;
   solution.status = Status::kInfeasible;
   solution.omega = options.omega;

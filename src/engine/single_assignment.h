@@ -21,10 +21,14 @@ Limits part_of(const Limits& limits, const SolveOptions& options, double share);
 Restriction restriction_to(const Instance& instance, const Assignment& assignment, Cost bound,
                            Cost cutoff = kInfiniteCost);
 
-// Reports to `observer` that there is no plan, and returns this result.
+Solution infeasible_solution(const SolveOptions& options, const std::string& reason);
+// Also reports to `observer` that there is no plan.
 Solution infeasible_solution(const SolveOptions& options, const std::string& reason,
                              RunObserver& observer);
 
+// The reason if lower_bound_of_choices() is infinite.
+inline constexpr const char* kNoWayToGoals =
+    "the agents cannot visit the tasks that they must visit and then reach different goals";
 inline constexpr const char* kNoAssignmentFound =
     "the insertion heuristic found no assignment; one may exist";
 // The result if there is no assignment to search. If no limit is the reason, `remark` states it.

@@ -199,6 +199,21 @@ TEST(SolveWithChoices, TooFewGoalsAreInfeasible) {
   }
 }
 
+// After its task on the dead end D the agent can end only there, on the goal of the other agent.
+TEST(SolveWithChoices, NoWayFromATaskToAFreeGoalIsInfeasible) {
+  enum : std::uint8_t { kA, kB, kD };
+  InstanceBuilder builder(
+      Roadmap({{"A", {0, 0}}, {"B", {1, 0}}, {"D", {2, 0}}}, {{kA, kB}, {kB, kD, 3, true}}));
+  builder.add_agent(
+      {.id = "a", .start = {.place = kB}, .goal = {}, .goals = std::vector<Place>{kA, kB, kD}});
+  builder.add_agent("c", Place{kA}, Place{kD});
+  builder.add_task("t", Place{kD}, std::vector<std::string>{"a"});
+  const Instance instance = std::move(builder).build();
+  const Solution solution = solve_by(Method::kAuto, false, instance, {}, Limits());
+  EXPECT_EQ(solution.status, Status::kInfeasible);
+  EXPECT_EQ(solution.lower_bound, 0);
+}
+
 // The engines themselves refuse choices, except for policy fixed, so no program can drop them.
 TEST(SolveWithChoices, EnginesRefuseChoices) {
   EXPECT_THROW(solve(testing::instance_with_goals(), {}, Limits()), InstanceError);
