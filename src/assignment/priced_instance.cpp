@@ -43,6 +43,7 @@ namespace grove::detail {
 namespace {
 
 constexpr Time kMaxPrice = 1 << 20;
+constexpr std::int64_t kRoundingEffort = 100'000'000;  // about 0.6 s
 
 // True if the agent has an optional task on the place of another one.
 bool shares_places(const Instance& instance, const Agent& agent) {
@@ -77,14 +78,21 @@ int stop_of(const Instance& priced, AgentIndex index, TaskIndex task) {
 
 class Reformulation {
  public:
-  Reformulation(const Instance& instance, std::vector<RouteBound::Choices> choices,
-                RouteBound::Multipliers multipliers)
-      : instance_(instance), choices_(std::move(choices)), multipliers_(std::move(multipliers)) {}
-
-  Pricing make(std::optional<PricedInstance>& priced) {
+  Reformulation(const Instance& instance, const RouteBound& bound,
+                std::vector<RouteBound::Choices> choices)
+      : instance_(instance), bound_(bound), choices_(std::move(choices)) {
     keep_begun_visits();
+  }
+
+  bool is_possible() const {
     for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent)
-      if (!has_room(agent)) return Pricing::kNotPossible;
+      if (!has_room(agent)) return false;
+    return true;
+  }
+
+  // Precondition: is_possible().
+  Pricing make(RouteBound::Multipliers multipliers, std::optional<PricedInstance>& priced) {
+    multipliers_ = std::move(multipliers);
     remove_goals_of_others();
     InstanceBuilder builder = InstanceBuilder::like(instance_);
     for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
@@ -212,12 +220,24 @@ class Reformulation {
       prices.rest_requires = rest_requires(priced, index);
     for (int stop = 0; stop < std::ssize(priced.agent(index).stops); ++stop)
       prices.skip.push_back(price_of_skip(priced, index, stop));
+    prices.neighborhoods = neighborhoods(priced, index);
     for (const Place goal : choices_[index].goals) {
       const auto known =
           std::ranges::find(multipliers_.on_goals, goal, &std::pair<Place, Time>::first);
       prices.goals.push_back({goal, known->second});
     }
     return prices;
+  }
+
+  std::vector<StopSet> neighborhoods(const Instance& priced, AgentIndex index) const {
+    const Agent& agent = priced.agent(index);
+    std::vector<StopSet> sets;
+    for (const TaskIndex stop : agent.stops) {
+      StopSet& set = sets.emplace_back(0);
+      for (const TaskIndex task : bound_.neighborhood(index, stop))
+        if (std::ranges::count(agent.tasks, task) > 0) set |= bit(stop_of(priced, index, task));
+    }
+    return sets;
   }
 
   // The stops on places where all tasks of the agent take time and are optional.
@@ -238,8 +258,9 @@ class Reformulation {
   }
 
   const Instance& instance_;
+  const RouteBound& bound_;
   std::vector<RouteBound::Choices> choices_;
-  const RouteBound::Multipliers multipliers_;
+  RouteBound::Multipliers multipliers_;
 };
 
 // An agent without a destination that must visit tasks rests on a task that it has visited. If none
@@ -327,9 +348,11 @@ Pricing price_choices(const Instance& instance, RouteBound& bound, Cost cutoff, 
   auto choices =
       fixing == Fixing::kNone ? all_choices(instance) : bound.choices_below(cutoff, limits);
   if (!choices) return Pricing::kNotPossible;
-  auto multipliers = bound.rounded(limits);
+  Reformulation reformulation(instance, bound, *std::move(choices));
+  if (!reformulation.is_possible()) return Pricing::kNotPossible;
+  auto multipliers = bound.rounded(kRoundingEffort, limits);
   if (!multipliers) return Pricing::kNotPossible;
-  return Reformulation(instance, *std::move(choices), *std::move(multipliers)).make(priced);
+  return reformulation.make(*std::move(multipliers), priced);
 }
 
 Plan plan_of(const Instance& instance, const PricedInstance& priced,

@@ -37,6 +37,7 @@
 
 #include "assignment/agent_walks.h"
 #include "assignment/goal_choice.h"
+#include "model/assert.h"
 #include "model/random.h"
 #include "sequencing/ng_walks.h"
 
@@ -127,10 +128,11 @@ class RouteBound::Relaxation {
     return choices;
   }
 
-  // Local search from the rounded multipliers: some of those whose condition the walks do not meet
-  // change by a step.
-  std::optional<Multipliers> rounded(const Limits& limits) {
+  // Local search from the rounded multipliers: some of those whose condition the walks violate or
+  // exceed change by a step.
+  std::optional<Multipliers> rounded(std::int64_t max_effort, const Limits& limits) {
     if (!best_) return std::nullopt;
+    const std::int64_t end = effort() + max_effort;
     on_visits_ = best_->on_visits;
     on_goals_ = best_->on_goals;
     for (std::int64_t& multiplier : on_visits_)
@@ -139,22 +141,14 @@ class RouteBound::Relaxation {
       multiplier = (multiplier + kUnit / 2) / kUnit * kUnit;
     std::optional<Best> best;
     Random random(0);
-    for (int round = 0; round < kRoundings; ++round) {
-      switch (evaluate(kNoWalk, limits)) {
-        case NgWalks::Outcome::kStopped:
-          return std::nullopt;
-        case NgWalks::Outcome::kNegativeCycle:
-          bound_ = 0;
-          break;
-        case NgWalks::Outcome::kFound:
-          break;
-      }
+    for (int round = 0; round < kRoundings && effort() < end; ++round) {
+      if (!evaluate_integral(end, limits)) break;
       if (!best || bound_ >= best->bound) {
         best = {bound_, on_visits_, on_goals_};
       } else {
         on_visits_ = best->on_visits;
         on_goals_ = best->on_goals;
-        evaluate(kNoWalk, limits);
+        if (!evaluate_integral(end, limits)) break;
       }
       const auto vary = [&](std::int64_t& multiplier, std::int64_t direction) {
         if (direction == 0 || random.below(4) > 0) return;
@@ -163,12 +157,22 @@ class RouteBound::Relaxation {
       for (std::size_t i = 0; i < needs_.size(); ++i) vary(on_visits_[i], needs_[i] - visits_[i]);
       for (std::size_t i = 0; i < places_.size(); ++i) vary(on_goals_[i], uses_[i] - 1);
     }
+    if (!best || limits.stop_requested()) return std::nullopt;
     Multipliers result;
     for (TaskIndex task = 0; task < instance_.task_count(); ++task)
       result.on_visits.push_back(static_cast<Time>(best->on_visits[task] / kUnit));
     for (std::size_t i = 0; i < places_.size(); ++i)
       result.on_goals.emplace_back(places_[i], static_cast<Time>(best->on_goals[i] / kUnit));
     return result;
+  }
+
+  std::vector<TaskIndex> neighborhood(AgentIndex agent, TaskIndex task) const {
+    const AgentWalks& walks = agents_[agent].walks;
+    const auto stop = std::ranges::find(walks.tasks, task) - walks.tasks.begin();
+    std::vector<TaskIndex> tasks;
+    for (const std::int32_t neighbor : walks.forward.stops[stop].neighbors)
+      tasks.push_back(walks.tasks[neighbor]);
+    return tasks;
   }
 
  private:
@@ -239,8 +243,10 @@ class RouteBound::Relaxation {
     bound_ = constant();
     for (AgentData& agent : agents_) {
       const auto outcome = find_walks(agent, agent.walks.forward, limits, end - effort());
-      if (outcome == NgWalks::Outcome::kNegativeCycle)
+      if (outcome == NgWalks::Outcome::kNegativeCycle) {
+        agent_of_cycle_ = &agent;
         has_grown_ = agent.walks.forbid_cycle(costs_, walks_.cycle());
+      }
       if (outcome != NgWalks::Outcome::kFound) return outcome;
       NgWalks::LabelId last = NgWalks::kStart;
       bound_ += least_reduced_cost(agent, &last);
@@ -248,6 +254,25 @@ class RouteBound::Relaxation {
         agent.walks.forbid_cycle(costs_, cycle);
     }
     return NgWalks::Outcome::kFound;
+  }
+
+  // As evaluate(), for integral multipliers. While a cycle has a negative cost, lowers the greatest
+  // multiplier of its visits. Returns false after about `end` labels in total, or at a limit.
+  bool evaluate_integral(std::int64_t end, const Limits& limits) {
+    for (;;) {
+      const auto outcome = evaluate(std::max<std::int64_t>(end - effort(), 1), limits);
+      if (outcome != NgWalks::Outcome::kNegativeCycle) return outcome == NgWalks::Outcome::kFound;
+      if (has_grown_) continue;
+      std::int64_t* greatest = nullptr;
+      for (const std::int32_t stop : walks_.cycle()) {
+        const std::size_t condition = agent_of_cycle_->conditions[stop];
+        if (condition == kExact) continue;
+        std::int64_t& multiplier = on_visits_[condition];
+        if (greatest == nullptr || multiplier > *greatest) greatest = &multiplier;
+      }
+      GROVE_CHECK(greatest != nullptr && *greatest >= kUnit, "a negative cycle has a multiplier");
+      *greatest -= kUnit;
+    }
   }
 
   // The part of the bound that does not depend on the walks.
@@ -392,7 +417,8 @@ class RouteBound::Relaxation {
   std::vector<std::int64_t> on_goals_;   // and by index in places_
   std::optional<Best> best_;
   double factor_ = kFirstFactor;
-  int failures_ = 0;        // steps since the last progress
+  int failures_ = 0;                           // steps since the last progress
+  const AgentData* agent_of_cycle_ = nullptr;  // of the last evaluation without a minimum
   bool has_grown_ = false;  // a neighbourhood has, in the last evaluation without a minimum
   NgWalks walks_;
   // Of the current evaluation.
@@ -418,8 +444,13 @@ std::optional<std::vector<RouteBound::Choices>> RouteBound::choices_below(Cost c
   return relaxation_->choices_below(cutoff, limits);
 }
 
-std::optional<RouteBound::Multipliers> RouteBound::rounded(const Limits& limits) {
-  return relaxation_->rounded(limits);
+std::optional<RouteBound::Multipliers> RouteBound::rounded(std::int64_t max_effort,
+                                                           const Limits& limits) {
+  return relaxation_->rounded(max_effort, limits);
+}
+
+std::vector<TaskIndex> RouteBound::neighborhood(AgentIndex agent, TaskIndex task) const {
+  return relaxation_->neighborhood(agent, task);
 }
 
 Cost RouteBound::lower_bound() const {

@@ -46,12 +46,17 @@ class RouteBound {
   std::optional<std::vector<Choices>> choices_below(Cost cutoff, const Limits& limits);
 
   // Integral multipliers, in steps, with a good bound, found by local search from the best
-  // multipliers. Returns nullopt if there is no bound yet, or if a limit is reached.
+  // multipliers with about `max_effort` labels. Returns nullopt if there is no bound yet, or if it
+  // finds none, or if a limit is reached.
   struct Multipliers {
     std::vector<Time> on_visits;                   // by task; 0 for tasks without a choice
     std::vector<std::pair<Place, Time>> on_goals;  // by possible destination
   };
-  std::optional<Multipliers> rounded(const Limits& limits);
+  std::optional<Multipliers> rounded(std::int64_t max_effort, const Limits& limits);
+
+  // The neighbourhood of `task` in the walks of the agent (ng_walks.h), with `task` itself. Walks
+  // with these neighbourhoods seldom have cycles of negative cost under rounded() multipliers.
+  std::vector<TaskIndex> neighborhood(AgentIndex agent, TaskIndex task) const;
 
  private:
   class Relaxation;

@@ -21,7 +21,9 @@ struct AgentPrices {
     Place place;
     Time price;
   };
-  std::vector<Time> skip;       // by stop: for leaving it out; kNever: it must visit it
+  std::vector<Time> skip;  // by stop: for leaving it out; kNever: it must visit it
+  // By stop: its neighbourhood, for lower bounds (sequencing/optional_stops_dag.h).
+  std::vector<StopSet> neighborhoods;
   std::vector<Goal> goals;      // where it may end; empty: as the instance says
   bool rests_anywhere = false;  // it may end on any place, but not within a turn
   // On a place of these stops it may end only if it has counted one of them that is there.

@@ -190,7 +190,7 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
 AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent,
                        AgentPrices prices)
     : AgentStops(instance, distances, agent,
-                 CostToGo::with_prices(cost_matrix(instance, agent, distances), prices.skip)) {
+                 CostToGo::with_prices(cost_matrix(instance, agent, distances), prices.skip, {})) {
   GROVE_CHECK(std::ssize(prices.skip) == count(), "each stop has a price");
   for (int stop = 0; stop < count(); ++stop)
     if (prices.skip[stop] > 0 && prices.skip[stop] < kNever) optional_ |= bit(stop);
@@ -203,7 +203,7 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
   CostMatrix matrix = cost_to_go_.matrix();
   for (int stop = 0; stop < count() && to_rest_; ++stop)
     matrix.cost(stop, count()) = min_distance_from(*world_, places_[stop], kind_, to_rest_);
-  cost_to_go_ = CostToGo::with_prices(std::move(matrix), prices.skip);
+  cost_to_go_ = CostToGo::with_prices(std::move(matrix), prices.skip, prices.neighborhoods);
   prices_ = std::make_shared<const AgentPrices>(std::move(prices));
 }
 

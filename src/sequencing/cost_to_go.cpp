@@ -211,9 +211,11 @@ class CostToGo::Ordered : public Store {
 // Prices to go of sequences that may leave out stops.
 class CostToGo::Priced : public Store {
  public:
-  Priced(std::shared_ptr<const CostMatrix> matrix, std::vector<Time> skip)
+  Priced(std::shared_ptr<const CostMatrix> matrix, std::vector<Time> skip,
+         std::vector<StopSet> neighborhoods)
       : Store(std::move(matrix)),
         skip_(std::make_shared<const std::vector<Time>>(std::move(skip))),
+        neighborhoods_(std::make_shared<const std::vector<StopSet>>(std::move(neighborhoods))),
         dag_(std::make_shared<const OptionalStopsDag>(0)) {}
 
   Time relaxed_bound() const override { return 0; }
@@ -222,7 +224,7 @@ class CostToGo::Priced : public Store {
   std::shared_ptr<const Store> extended(Time cost_limit, const Limits& limits) const override {
     auto extended = std::make_shared<Priced>(*this);
     if (!extended->bounds_) {
-      auto bounds = CompletionBounds::make(matrix(), *skip_, limits);
+      auto bounds = CompletionBounds::make(matrix(), *skip_, *neighborhoods_, limits);
       if (!bounds) return nullptr;
       extended->bounds_ = std::make_shared<const CompletionBounds>(*std::move(bounds));
     }
@@ -234,6 +236,7 @@ class CostToGo::Priced : public Store {
 
  private:
   std::shared_ptr<const std::vector<Time>> skip_;
+  std::shared_ptr<const std::vector<StopSet>> neighborhoods_;
   std::shared_ptr<const CompletionBounds> bounds_;  // made when first needed
   std::shared_ptr<const OptionalStopsDag> dag_;
 };
@@ -277,9 +280,10 @@ std::optional<CostToGo> CostToGo::of_class(const SequenceClass& sequence_class) 
   return cost_to_go;
 }
 
-CostToGo CostToGo::with_prices(CostMatrix matrix, std::vector<Time> skip) {
+CostToGo CostToGo::with_prices(CostMatrix matrix, std::vector<Time> skip,
+                               std::vector<StopSet> neighborhoods) {
   return CostToGo(std::make_shared<Priced>(std::make_shared<const CostMatrix>(std::move(matrix)),
-                                           std::move(skip)));
+                                           std::move(skip), std::move(neighborhoods)));
 }
 
 const CostMatrix& CostToGo::matrix() const {

@@ -44,9 +44,11 @@ class CostToGo {
   // `order`; its cost to go is the least cost through the stops left in this order.
   static CostToGo in_order(const CostMatrix& matrix, Sequence order);
   // Returns prices to go: costs of sequences that may leave out stops, plus the prices of these
-  // stops. `skip`: by stop, the price of leaving it out; kNever: it must be visited. Requires one
-  // port per stop. extend() fails if there are too many states.
-  static CostToGo with_prices(CostMatrix matrix, std::vector<Time> skip);
+  // stops. `skip`: by stop, the price of leaving it out; kNever: it must be visited.
+  // `neighborhoods`: as for CompletionBounds::make(). Requires one port per stop. extend() fails if
+  // there are too many states.
+  static CostToGo with_prices(CostMatrix matrix, std::vector<Time> skip,
+                              std::vector<StopSet> neighborhoods = {});
   const CostMatrix& matrix() const;
 
   // Proven lower bound on the cost of every sequence with a state outside the store; for a graph by

@@ -41,7 +41,8 @@ struct ReverseWalks {
   std::vector<std::int64_t> prizes;
 };
 
-ReverseWalks reverse_walks(const CostMatrix& matrix, const std::vector<Time>& skip) {
+ReverseWalks reverse_walks(const CostMatrix& matrix, const std::vector<Time>& skip,
+                           const std::vector<StopSet>& neighborhoods) {
   ReverseWalks walks;
   for (int stop = 0; stop < matrix.stops(); ++stop) walks.order.push_back(stop);
   std::ranges::stable_partition(walks.order, [&](int stop) { return must_visit(skip, stop); });
@@ -55,15 +56,22 @@ ReverseWalks reverse_walks(const CostMatrix& matrix, const std::vector<Time>& sk
     walks.prizes.push_back(must_visit(skip, stop) ? 0 : skip[static_cast<std::size_t>(stop)]);
     NgStops::Stop& made = walks.stops.stops[at];
     if (matrix.to_end(stop) < kNever) made.first = matrix.to_end(stop);
-    std::vector<std::pair<Time, std::int32_t>> nearest;
+    const auto rank = [&](int other) {  // the stop itself, then its neighbourhood, then the others
+      if (other == stop) return 0;
+      return !neighborhoods.empty() && (neighborhoods[stop] & bit(other)) != 0 ? 1 : 2;
+    };
+    std::vector<std::tuple<int, Time, std::int32_t>> nearest;
     for (std::int32_t to = 0; to < std::ssize(walks.order); ++to) {
       const Time leg = matrix.between(walks.order[to], stop);
-      nearest.emplace_back(to == at ? -1 : leg, to);
+      nearest.emplace_back(rank(walks.order[to]), leg, to);
       if (to != at && leg < kNever) made.legs.push_back({to, leg, 0});
     }
     std::ranges::sort(nearest);
-    for (int i = 0; i < std::min(kNeighbors, walks.stops.neighbors); ++i)
-      walks.stops.add_neighbor(at, nearest[i].second);
+    for (const auto& [kind, leg, to] : nearest) {
+      const auto count = std::ssize(walks.stops.stops[at].neighbors);
+      if (count == walks.stops.neighbors || (kind == 2 && count >= kNeighbors)) break;
+      walks.stops.add_neighbor(at, to);
+    }
   }
   return walks;
 }
@@ -124,9 +132,10 @@ Time price_without(const std::vector<Time>& skip, StopSet set) {
 
 std::optional<CompletionBounds> CompletionBounds::make(const CostMatrix& matrix,
                                                        const std::vector<Time>& skip,
+                                                       const std::vector<StopSet>& neighborhoods,
                                                        const Limits& limits) {
   GROVE_CHECK(matrix.ports == 1, "completions are from stops, not from ports");
-  ReverseWalks reverse = reverse_walks(matrix, skip);
+  ReverseWalks reverse = reverse_walks(matrix, skip, neighborhoods);
   NgWalks walks;
   for (bool found = false; !found;) {
     switch (walks.find(reverse.stops, reverse.prizes, kMaxEffort - walks.effort(), limits)) {

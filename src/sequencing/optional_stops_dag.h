@@ -23,9 +23,12 @@ Time price_without(const std::vector<Time>& skip, StopSet set);
 // Lower bounds on the price from a stop to the end (ng_walks.h). Immutable: any thread may read it.
 class CompletionBounds {
  public:
-  // Requires one port per stop. Returns nullopt if there is no bound, or if a limit was reached.
+  // Requires one port per stop. `neighborhoods`: by stop, the stops that a walk remembers there at
+  // first; empty: those nearby. Returns nullopt if there is no bound, or if a limit was reached.
   static std::optional<CompletionBounds> make(const CostMatrix& matrix,
-                                              const std::vector<Time>& skip, const Limits& limits);
+                                              const std::vector<Time>& skip,
+                                              const std::vector<StopSet>& neighborhoods,
+                                              const Limits& limits);
   // The bound from `stop`, if the stops of `left` are not visited yet; at most kNever.
   Time from(int stop, StopSet left) const;
 

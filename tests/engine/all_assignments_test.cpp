@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 
 #include "assignment/assignment_search.h"
 #include "assignment/route_bound.h"
+#include "model/random.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/joint_oracle.h"
 #include "tests/support/fuzz_factor.h"
@@ -77,6 +79,30 @@ TEST(AllAssignments, AgreesWithTheOracle) {
   }
   EXPECT_GT(instances, 50);
   EXPECT_GT(2 * solved, instances);
+}
+
+// With many tasks nearby, whole multipliers next to the best ones often have no bound.
+TEST(AllAssignments, ManyNearTasksHaveABound) {
+  constexpr int kWidth = 6;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    std::vector<Place> places(kWidth * kWidth);
+    std::iota(places.begin(), places.end(), 0);
+    random.shuffle(places);
+    InstanceBuilder builder(Grid(kWidth, kWidth, std::vector<bool>(places.size(), true)));
+    std::vector<std::string> agents;
+    for (int i = 0; i < 3; ++i) {
+      agents.push_back("a" + std::to_string(i));
+      builder.add_agent(agents.back(), places[i], places[3 + i]);
+    }
+    for (int i = 6; i < 24; ++i)
+      builder.add_task("t" + std::to_string(i), places[i], agents, 0, 1 + random.below(2));
+    const Instance instance = std::move(builder).build();
+    const auto found = search(instance, kInfiniteCost, 3'000'000);
+    ASSERT_TRUE(found);
+    EXPECT_GT(found->lower_bound, 0);
+  }
 }
 
 // An agent that does not pay for a goal rests on it.

@@ -118,7 +118,7 @@ TEST(OptionalStops, CompletionBoundsAreValid) {
                                              : testing::metric_matrix(stops, Variant::kMg, random);
     const std::vector<Time> skip = random_prices(stops, random);
     const Reference reference(matrix, skip);
-    const auto completions = CompletionBounds::make(matrix, skip, Limits());
+    const auto completions = CompletionBounds::make(matrix, skip, {}, Limits());
     if (!completions) continue;
     for (StopSet left = 0; left <= all_stops(stops); ++left)
       for (int at = 0; at < stops; ++at) {
