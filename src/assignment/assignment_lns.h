@@ -11,12 +11,12 @@ namespace grove::detail {
 
 // Improves the routes by slack induction by string removals (Christiaens and Vanden Berghe 2020),
 // until `insertions` insertions into a route have been tried or a limit is reached. The result
-// never costs more than the given routes. `costs` must be those of the routes. Repeatable.
-void improve_routes(Routes& routes, const RouteCosts& costs, std::int64_t insertions,
-                    std::uint64_t seed, const Limits& limits);
+// never costs more than the given routes. Repeatable.
+void improve_routes(Routes& routes, std::int64_t insertions, std::uint64_t seed,
+                    const Limits& limits);
 
 // The same, but accepts all routes that cost less than `cost_limit` in total.
-void vary_routes(Routes& routes, const RouteCosts& costs, Cost cost_limit, std::int64_t insertions,
-                 std::uint64_t seed, const Limits& limits);
+void vary_routes(Routes& routes, Cost cost_limit, std::int64_t insertions, std::uint64_t seed,
+                 const Limits& limits);
 
 }  // namespace grove::detail

@@ -128,7 +128,7 @@ class AssignmentSearch::Builder {
     if (!insert_required() || !routes_.choose_goals() || !insertion.run(limits))
       return std::nullopt;
     for (int pass = 0; pass < kPasses && !limits.stop_requested(); ++pass) {
-      improve_routes(routes_, costs_, insertions(), seed_++, limits);
+      improve_routes(routes_, insertions(), seed_++, limits);
       routes_.choose_goals();
     }
     return remembered(assignment(routes_));
@@ -145,7 +145,7 @@ class AssignmentSearch::Builder {
   }
 
   Assignment improved(std::int64_t insertions, const Limits& limits) {
-    improve_routes(routes_, costs_, insertions, seed_++, limits);
+    improve_routes(routes_, insertions, seed_++, limits);
     Routes other = routes_;
     if (other.choose_goals() && other.cost() < routes_.cost()) routes_ = std::move(other);
     separate_ends();
@@ -157,9 +157,9 @@ class AssignmentSearch::Builder {
     for (int attempt = 0; attempt < kAttempts && !limits.stop_requested(); ++attempt) {
       Routes routes = routes_;
       if (routes.cost() >= cost_limit)
-        improve_routes(routes, costs_, insertions(), seed_++, limits);
+        improve_routes(routes, insertions(), seed_++, limits);
       else
-        vary_routes(routes, costs_, limit_of_variant(cost_limit), insertions() / kAttempts, seed_++,
+        vary_routes(routes, limit_of_variant(cost_limit), insertions() / kAttempts, seed_++,
                     limits);
       const Time noise = static_cast<Time>(seed_ % (kMaxNoise + 1));
       if (!routes.choose_goals(noise, seed_) || routes.cost() >= cost_limit) continue;

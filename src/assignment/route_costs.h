@@ -34,6 +34,10 @@ class RouteCosts {
   Time to_goal(AgentIndex agent, TaskIndex from, Place goal) const {
     return legs_to_goal(agent, goal)[from];
   }
+  // The distances to the states in which the agent may rest on `goal`, one of its destinations.
+  DistanceView distances_to_goal(AgentIndex agent, Place goal) const {
+    return DistanceView(of_goal(agent, goal).distances);
+  }
   // The legs to `goal` from all tasks.
   const std::vector<Time>& legs_to_goal(AgentIndex agent, Place goal) const {
     return of_goal(agent, goal).legs;

@@ -38,6 +38,8 @@ class Routes {
   bool visits(AgentIndex agent, TaskIndex task) const;
   // The sum of the costs of all routes.
   Cost cost() const;
+  // The cost of one route.
+  Cost cost(AgentIndex agent) const;
 
   Insertion cheapest(AgentIndex agent, TaskIndex task) const {
     return cheapest(agent, task, [] { return true; });
@@ -68,7 +70,6 @@ class Routes {
   Time leg(AgentIndex agent, std::size_t at) const;
   Time leg_from(AgentIndex agent, TaskIndex task, std::size_t at) const;
   Time to_rest(AgentIndex agent, TaskIndex from) const;
-  Cost cost(AgentIndex agent) const;
   // The cost of an insertion at position `at` that is `before` steps from the stop before it, which
   // the agent reaches at time `arrival`, and `after` steps from the next one.
   Time insertion_cost(AgentIndex agent, std::size_t at, Cost arrival, Time before,

@@ -16,6 +16,7 @@
 #include "assignment/assignment.h"
 #include "assignment/assignment_search.h"
 #include "assignment/choice_bounds.h"
+#include "assignment/exchange_search.h"
 #include "assignment/implied_tasks.h"
 #include "assignment/infeasible_choices.h"
 #include "assignment/instance_routes.h"
@@ -43,7 +44,8 @@ constexpr double kOtherShareWithAll = 0.05;
 // Effort of the Lagrangian bound (about 1 s), and its share of the time at most.
 constexpr std::int64_t kBoundEffort = 150'000'000;
 constexpr double kBoundShare = 0.2;
-constexpr std::int64_t kAllEffort = 2'000'000;  // per further assignment
+constexpr std::int64_t kAllEffort = 2'000'000;     // per further assignment
+constexpr std::int64_t kExchangeEffort = 300'000;  // of exchanges without a gain, about 0.1 s
 constexpr Cost kMarginOffset = 100;  // after a failure the margin is at most half of this + bound
 constexpr int kFailuresWithoutAssignment = 20;  // that count if no assignment is found
 constexpr int kMaxFailures = 200;  // assignments in succession that lead to no cheaper plan
@@ -52,14 +54,19 @@ bool is_within(const Solution& solution, Omega omega) {
   return solution.plan && omega.accepts(solution.plan->cost, solution.lower_bound);
 }
 
-// Searches one assignment after the other for plans, and all assignments at once for a bound. Ends
+// Searches one assignment after the other for plans, exchanges tasks and goals between the agents
+// of the best plan, and searches all assignments at once for a bound. Ends
 // when the search over all assignments is over, or is not possible, and no further assignment leads
 // to a cheaper plan.
 class ChoicesRun {
  public:
   ChoicesRun(const Instance& instance, const SolveOptions& options, const Limits& limits,
-             MergedObserver& merged)
-      : instance_(instance), options_(options), limits_(limits), merged_(merged) {
+             MergedObserver& merged, ExchangeSearch& exchanges)
+      : instance_(instance),
+        options_(options),
+        limits_(limits),
+        merged_(merged),
+        exchanges_(exchanges) {
     of_one_.proof = nullptr;
   }
 
@@ -70,13 +77,14 @@ class ChoicesRun {
     if (!options_.deterministic) spent_on_bounds_ = spent;
     best_ = solve_one(first, can_search_all() ? kFirstShareWithAll : kFirstShare);
     while (!limits_.stop_requested() && !is_over() && (can_search_all() || can_search_next())) {
+      const bool can_search_plans = can_search_next() || best_.plan;
       const bool is_turn_of_bounds =
-          can_search_all() && (spent_on_bounds_ <= spent_on_plans_ || !can_search_next());
+          can_search_all() && (spent_on_bounds_ <= spent_on_plans_ || !can_search_plans);
       const auto start = limits_.now();
       if (is_turn_of_bounds)
         search_all(route_bound);
       else
-        search_next(assignments);
+        search_plans(assignments);
       (is_turn_of_bounds ? spent_on_bounds_ : spent_on_plans_) += seconds_since(start);
     }
     return finish();
@@ -107,6 +115,39 @@ class ChoicesRun {
   double seconds_since(Limits::Clock::time_point start) const {
     if (options_.deterministic) return 1;
     return std::chrono::duration<double>(limits_.now() - start).count();
+  }
+
+  // Further assignments and exchanges between the agents of the incumbent get equal time.
+  void search_plans(AssignmentSearch& assignments) {
+    const bool is_turn_of_exchanges =
+        best_.plan && (spent_on_exchanges_ <= spent_on_assignments_ || !can_search_next());
+    const auto start = limits_.now();
+    if (is_turn_of_exchanges)
+      exchange();
+    else
+      search_next(assignments);
+    (is_turn_of_exchanges ? spent_on_exchanges_ : spent_on_assignments_) += seconds_since(start);
+  }
+
+  void exchange() {
+    try {
+      if (exchanged_from_ != cost()) exchanges_.start_from(*best_.plan);
+      while (auto plan = exchanges_.improve(cost(), kExchangeEffort, limits_)) {
+        use_exchanged(std::move(*plan));
+        if (is_over()) break;
+      }
+      exchanged_from_ = cost();
+    } catch (const std::bad_alloc&) {
+      limits_.memory_exhausted();
+    }
+  }
+
+  void use_exchanged(Plan plan) {
+    failures_ = 0;
+    best_.plan = std::move(plan);
+    state_bound(reported());
+    merged_.incumbent(*best_.plan, PlanSource::kLns, progress());
+    report(RunEvent::kIncumbent);
   }
 
   void search_next(AssignmentSearch& assignments) {
@@ -241,10 +282,15 @@ class ChoicesRun {
   Cost cutoff_ = kInfiniteCost;         // of all_
   Cost cutoff_margin_ = kInfiniteCost;  // 0: all assignments cannot be searched
   int failures_ = 0;                    // assignments in succession without a cheaper plan
-  // Seconds; the two take turns. In deterministic runs, calls.
+  // Seconds; in deterministic runs, calls. Bounds and plans take turns, and for plans exchanges and
+  // assignments.
   double spent_on_bounds_ = 0;
   double spent_on_plans_ = 0;
+  double spent_on_exchanges_ = 0;
+  double spent_on_assignments_ = 0;
   int searched_ = 0;
+  ExchangeSearch& exchanges_;
+  Cost exchanged_from_ = kInfiniteCost;  // cost of the plan from which exchanges_ continues
 };
 
 Solution assign_and_solve(const Instance& instance, const SolveOptions& options,
@@ -265,7 +311,8 @@ Solution assign_and_solve(const Instance& instance, const SolveOptions& options,
   bound = std::max(bound, route_bound.lower_bound());
   merged.note(
       "Searches assignments of tasks and goals; the lower bound holds for all assignments.");
-  return ChoicesRun(instance, options, limits, merged)
+  ExchangeSearch exchanges(instance, distances, assignments.routes(), options.seed);
+  return ChoicesRun(instance, options, limits, merged, exchanges)
       .run(assignments, *first, route_bound, bound, spent.count());
 }
 

@@ -9,8 +9,9 @@ namespace grove::detail {
 
 // Solves an instance with choices, with the contract of solve(). With policy fixed, there is one
 // tree per joint assignment with sequences (search/route_forest.h). Otherwise alternates between
-// single assignments (assignment/assignment_search.h), each as an instance without choices, and a
-// search over all assignments (engine/all_assignments.h). The lower bound holds for all
+// single assignments (assignment/assignment_search.h), each as an instance without choices,
+// exchanges between the agents of the best plan (assignment/exchange_search.h), and a search over
+// all assignments (engine/all_assignments.h). The lower bound holds for all
 // assignments. Ends without a proof if the search over all assignments cannot continue and many
 // further assignments have led to no cheaper plan. Precondition: require_choices_fit().
 Solution solve_with_choices(const Instance& instance, const SolveOptions& options,

@@ -100,6 +100,10 @@ AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
 AgentPlan agent_plan_of_visits(const Instance& instance, AgentIndex agent,
                                std::span<const TaskIndex> visits, const Path& path) {
   AgentPlan plan = plan_without_sequence(instance, path);
+  const bool has_destination = instance.agent(agent).has_destination();
+  const auto end = static_cast<Time>(path.size()) - 1;
+  while (has_destination && plan.cost < end && !instance.may_rest(agent, plan.path[plan.cost]))
+    ++plan.cost;
   end_at_cost(plan);
   std::vector<WorkTime> stated;
   Time now = 0;
@@ -168,6 +172,7 @@ Path walked_path(const Instance& instance, AgentIndex agent, const AgentPlan& gi
   Path path(plan.path.begin(), plan.path.begin() + plan.cost + 1);
   path[0] = instance.agent(agent).start;
   for (const WorkTime& work : plan.work) {
+    if (work.begin == work.end) continue;  // a stated visit to a task without a duration
     const State base = plan.path[std::max(work.begin, 0)];
     const auto at_work = [&](Time done) {
       return instance.motion_world()->working(work.task, base, done);

@@ -59,7 +59,8 @@ AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
                      std::span<const std::uint8_t> stops, const Path& path);
 // As agent_plan(), for an agent that may choose tasks. `visits`: the tasks that the path visits, in
 // the order of the visits, with at least the stops of the agent. States each visit that has to be
-// stated, as early as possible. Precondition: the agent turns freely.
+// stated, as early as possible. The plan of an agent without a destination can end
+// within a turn.
 AgentPlan agent_plan_of_visits(const Instance& instance, AgentIndex agent,
                                std::span<const TaskIndex> visits, const Path& path);
 // As agent_plan(), but derives the sequence from the path: stops are ordered by their first visits.

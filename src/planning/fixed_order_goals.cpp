@@ -7,17 +7,21 @@
 namespace grove::detail {
 
 bool FixedOrderGoals::assign(const World& world, const GoalSequence& goals,
-                             const SafeIntervals& intervals) {
+                             SafeIntervals& intervals, Time cutoff) {
   world_ = &world;
+  intervals.ensure_intervals(world.place(goals.start()));
+  for (int k = 0; k < goals.size(); ++k)
+    if (goals.goal(k) != kNoPlace) intervals.ensure_intervals(goals.goal(k));
   max_turn_time_ = goals.max_turn_time();
   last_progress_ = goals.size() - 1;
   first_rest_ = goals.last() == kNoPlace ? 0 : intervals.rest_begin(goals.last());
   if (first_rest_ >= kNever || goals.distance(goals.start(), 0) >= kNever) return false;
   const int kind = world.kind(world.base(goals.start()));
   stages_.resize(static_cast<std::size_t>(goals.size()));
-  Time latest = std::numeric_limits<Time>::max();
+  Time latest = cutoff < kNever ? cutoff : std::numeric_limits<Time>::max();
   if (intervals.latest_rest() < kNever)
-    latest = intervals.latest_rest() + goals.longest_finish(intervals.only_rest());
+    latest =
+        std::min(latest, intervals.latest_rest() + goals.longest_finish(intervals.only_rest()));
   for (int k = last_progress_; k >= 0; --k) {
     const Place goal = goals.goal(k);
     const Time deadline = goal == kNoPlace ? kNever : intervals.last_time(goal);

@@ -49,9 +49,10 @@ class FixedOrderGoals {
   using Progress = std::uint8_t;
   static constexpr int kMaxGoals = 255;
 
-  // Sets the goals, at most kMaxGoals. `world` and the distance fields of `goals` must outlive the
-  // search. Returns false if a quick test proves that there is no path.
-  bool assign(const World& world, const GoalSequence& goals, const SafeIntervals& intervals);
+  // Sets the goals, at most kMaxGoals. Labels of f > `cutoff` are dropped.
+  // `world` and the distance fields of `goals` must outlive the search. Returns false if a quick
+  // test proves that there is no path.
+  bool assign(const World& world, const GoalSequence& goals, SafeIntervals& intervals, Time cutoff);
 
   Time first_rest() const { return first_rest_; }
   // Lower bound on the cost of a path that is in the state at `time` with this progress.
@@ -98,7 +99,7 @@ class FixedOrderGoals {
     std::uint32_t states;  // number of these base states; of all states if it is not fixed
     Time after_goal;
     TaskIndex work;  // the task that takes time at the next goal; -1: none
-    Time latest;     // labels of greater f miss a deadline
+    Time latest;     // labels of greater f miss a deadline, or are above the cutoff
     // A label of f >= gate_from is postponed to layer gate_until; if this is kNever, it is dropped.
     Time gate_from;
     Time gate_until;

@@ -21,12 +21,15 @@ PathOutcome FixedOrderSipp::find(const GoalSequence& goals, const PathQuery& que
                                  const Limits& limits, Path& path) {
   if (goals.size() > FixedOrderGoals::kMaxGoals)
     throw std::invalid_argument("an agent can have at most 255 goals");
-  if (query.reservations)
-    throw std::invalid_argument("goals in a fixed order are not planned around reservations");
   if (limits.stop_requested()) return PathOutcome::kStopped;
   Workspace& search = *workspace_;
-  search.intervals().assign(query.constraints);
-  if (!search.goals().assign(search.world(), goals, search.intervals()))
+  if (query.reservations)
+    search.intervals().assign(*query.reservations);
+  else
+    search.intervals().assign(query.constraints);
+  // With constraints, the search ignores the cutoff, so it can prove that there is no path.
+  const Time cap = query.reservations ? query.cutoff : kNever;
+  if (!search.goals().assign(search.world(), goals, search.intervals(), cap))
     return PathOutcome::kInfeasible;
   search.begin(goals.start(), 0, goals.distance(goals.start(), 0), query.others, limits);
   switch (search.run(search.expanded_after(query.label_limit))) {
@@ -38,7 +41,7 @@ PathOutcome FixedOrderSipp::find(const GoalSequence& goals, const PathQuery& que
       search.write_path(path);
       return PathOutcome::kFound;
     case Workspace::End::kExhausted:
-      return PathOutcome::kInfeasible;
+      return cap < kNever ? PathOutcome::kAboveCutoff : PathOutcome::kInfeasible;
     case Workspace::End::kPaused:
     case Workspace::End::kStopped:
       break;

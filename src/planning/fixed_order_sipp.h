@@ -26,8 +26,9 @@ class FixedOrderSipp {
   // Finds a path of least cost from goals.start() at time 0 that visits the goals in order and
   // satisfies the constraints of `query`, if that cost is at most the cutoff. The path ends when
   // the agent comes to rest: its cost is path.size() - 1. Writes `path` only on kFound. Ignores
-  // inflation_percent and known_sequences_only. Throws std::invalid_argument for more than 255
-  // goals, for constraints that SafeIntervals::assign() refuses, and for reservations.
+  // inflation_percent and known_sequences_only. With reservations and a cutoff, kAboveCutoff can
+  // also mean that there is no path. Throws std::invalid_argument for more than 255 goals, and for
+  // constraints that SafeIntervals::assign() refuses.
   PathOutcome find(const GoalSequence& goals, const PathQuery& query, const Limits& limits,
                    Path& path);
 

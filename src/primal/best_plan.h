@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "model/limits.h"
+#include "planning/planned_paths.h"
 #include "primal/plan_source.h"
-#include "primal/planned_paths.h"
 
 namespace grove::detail {
 

@@ -10,12 +10,12 @@
 
 #include "model/random.h"
 #include "model/tuning.h"
+#include "planning/planned_paths.h"
 #include "planning/problem.h"
 #include "primal/individual_costs.h"
 #include "primal/lacam_with_restarts.h"
 #include "primal/lns.h"
 #include "primal/plan_source.h"
-#include "primal/planned_paths.h"
 #include "primal/primal_low_level.h"
 #include "primal/state_machine.h"
 #include "primal/traffic_guided_lacam.h"

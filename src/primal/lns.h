@@ -9,8 +9,8 @@
 #include "model/random.h"
 #include "model/tuning.h"
 #include "planning/conflict_avoidance_table.h"
+#include "planning/planned_paths.h"
 #include "primal/neighborhoods.h"
-#include "primal/planned_paths.h"
 #include "primal/primal_low_level.h"
 
 namespace grove::detail {

@@ -16,7 +16,7 @@
 #include <numeric>
 
 #include "model/assert.h"
-#include "primal/planned_paths.h"
+#include "planning/planned_paths.h"
 
 namespace grove::detail {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "model/random.h"
 #include "model/tuning.h"
+#include "planning/planned_paths.h"
 #include "planning/problem.h"
-#include "primal/planned_paths.h"
 #include "primal/primal_low_level.h"
 
 namespace grove::detail {

@@ -10,9 +10,9 @@
 
 #include "model/random.h"
 #include "model/tuning.h"
+#include "planning/planned_paths.h"
 #include "planning/problem.h"
 #include "primal/individual_costs.h"
-#include "primal/planned_paths.h"
 #include "primal/primal_low_level.h"
 #include "primal/prioritized_planning.h"
 #include "primal/state_machine.h"

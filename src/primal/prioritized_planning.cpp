@@ -36,7 +36,7 @@
 #include <utility>
 
 #include "model/assert.h"
-#include "primal/planned_paths.h"
+#include "planning/planned_paths.h"
 
 namespace grove::detail {
 namespace {

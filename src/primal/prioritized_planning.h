@@ -9,7 +9,7 @@
 #include "model/random.h"
 #include "model/tuning.h"
 #include "planning/conflict_avoidance_table.h"
-#include "primal/planned_paths.h"
+#include "planning/planned_paths.h"
 #include "primal/primal_low_level.h"
 
 namespace grove::detail {

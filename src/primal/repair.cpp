@@ -13,7 +13,7 @@
 
 #include "model/assert.h"
 #include "model/random.h"
-#include "primal/planned_paths.h"
+#include "planning/planned_paths.h"
 #include "primal/primal_low_level.h"
 
 namespace grove::detail {

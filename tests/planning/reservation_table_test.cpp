@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests ReservationTable, and compares FreeOrderSipp with reservations to the same search with
+// Tests ReservationTable, and compares both low levels with reservations to the same searches with
 // equivalent constraints. GROVE_FUZZ_FACTOR multiplies the number of cases.
 #include "planning/reservation_table.h"
 
@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "planning/fixed_order_sipp.h"
 #include "planning/free_order_sipp.h"
 #include "tests/planning/random_cases.h"
 #include "tests/support/fuzz_factor.h"
@@ -122,6 +123,7 @@ class Fuzzer {
     AgentStops stops(instance_, distances, 0);
     SequenceStages goals(stops, {});
     FreeOrderSipp search(grid_);
+    FixedOrderSipp fixed(grid_);
     ReservationTable reservations(grid_);
     std::vector<Path> walks;
     for (int round = 0; round < 12 && !::testing::Test::HasFailure(); ++round) {
@@ -138,6 +140,7 @@ class Fuzzer {
         walks.push_back(std::move(walk));
       }
       compare(goals, search, reservations, walks);
+      compare(random_order(distances), fixed, reservations, walks);
     }
   }
 
@@ -210,9 +213,43 @@ class Fuzzer {
     expect_valid(goals, path, walks);
   }
 
+  GoalSequence random_order(const DistanceFields& distances) {
+    std::vector<TaskIndex> stops = instance_.agent(0).stops;
+    std::ranges::shuffle(stops, random_);
+    return {instance_, distances, 0, stops};
+  }
+
+  void compare(const GoalSequence& goals, FixedOrderSipp& search,
+               const ReservationTable& reservations, const std::vector<Path>& walks) {
+    std::vector<Constraint> constraints;
+    for (const Path& walk : walks) bar(walk, constraints);
+    Path expected;
+    Path path;
+    const Limits limits;
+    const Outcome outcome = search.find(goals, {constraints}, limits, expected);
+    ASSERT_EQ(search.find(goals, {.reservations = &reservations}, limits, path), outcome);
+    PathQuery query{.cutoff = below(40), .reservations = &reservations};
+    if (outcome != Outcome::kFound) {
+      EXPECT_NE(search.find(goals, query, limits, path), Outcome::kFound);
+      return;
+    }
+    EXPECT_EQ(path.size(), expected.size());
+    expect_valid(path, walks);
+    const Time cost = static_cast<Time>(expected.size()) - 1;
+    query.cutoff = cost - 1;
+    EXPECT_EQ(search.find(goals, query, limits, path), Outcome::kAboveCutoff);
+    query.cutoff = cost + below(10);
+    ASSERT_EQ(search.find(goals, query, limits, path), Outcome::kFound);
+    EXPECT_EQ(path.size(), expected.size());
+    expect_valid(path, walks);
+  }
+
   void expect_valid(const SequenceStages& goals, const Path& path, const std::vector<Path>& walks) {
-    EXPECT_EQ(path[0], goals.stops().start());
     EXPECT_NO_THROW(realized_sequence(goals, path));
+    expect_valid(path, walks);
+  }
+  void expect_valid(const Path& path, const std::vector<Path>& walks) {
+    EXPECT_EQ(path[0], instance_.agent(0).start);
     for (std::size_t t = 1; t < path.size(); ++t)
       EXPECT_TRUE(path[t] == path[t - 1] ||
                   std::ranges::count(grid_.neighbors(path[t - 1]), path[t]) == 1);
