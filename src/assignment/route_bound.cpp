@@ -50,7 +50,8 @@ constexpr std::int64_t kNoWalk = NgStops::kNoWalk;
 constexpr std::pair<int, int> kNeighbors = {4, 8};
 constexpr std::pair<int, int> kFewNeighbors = {3, 4};
 constexpr std::int64_t kMany = 5000;
-constexpr double kFirstFactor = 0.5;  // of the step size by Polyak
+constexpr std::int64_t kMaxLegs = 30'000'000;  // between tasks; some seconds to prepare
+constexpr double kFirstFactor = 0.5;           // of the step size by Polyak
 constexpr double kLastFactor = 0.005;
 constexpr double kRetreatFactor = 0.9;  // of the factor, after multipliers without a bound
 constexpr int kRoundings = 60;          // sets of whole multipliers that are tried
@@ -67,6 +68,7 @@ class RouteBound::Relaxation {
         places_(all_destinations(instance_)) {
     for (TaskIndex task = 0; task < instance_.task_count(); ++task)
       needs_.push_back(instance_.task(task).needs_all() ? 0 : instance_.task(task).need);
+    if (count_legs() > kMaxLegs) return;
     for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) add_agent(agent);
     start_with(routes);
   }
@@ -96,7 +98,9 @@ class RouteBound::Relaxation {
     }
   }
 
-  bool can_improve() const { return (!best_ || lower_bound() < cost_) && factor_ > kLastFactor; }
+  bool can_improve() const {
+    return !agents_.empty() && (!best_ || lower_bound() < cost_) && factor_ > kLastFactor;
+  }
 
   Cost lower_bound() const {
     return best_ ? std::max<Cost>(0, (best_->bound + kUnit - 1) / kUnit) : 0;
@@ -189,6 +193,16 @@ class RouteBound::Relaxation {
   };
 
   std::int64_t effort() const { return walks_.effort(); }
+
+  // The number of legs between the tasks of all agents.
+  std::int64_t count_legs() const {
+    std::int64_t legs = 0;
+    for (const Agent& agent : instance_.agents()) {
+      const auto tasks = std::ssize(agent.tasks) + std::ssize(agent.options);
+      legs += tasks * tasks;
+    }
+    return legs;
+  }
 
   void add_agent(AgentIndex index) {
     const bool is_large = std::int64_t{instance_.agent_count()} * instance_.task_count() > kMany;

@@ -18,8 +18,8 @@ namespace grove::detail {
 
 // A lower bound on the cost of every plan, without conflicts between agents. It relaxes how often
 // tasks are visited and goals are used, and which visits an agent repeats (ng-routes: Baldacci,
-// Mingozzi and Roberti 2011). The proof is at the head of route_bound.cpp. Repeatable, unless a
-// limit is reached. One thread at a time.
+// Mingozzi and Roberti 2011). If there are too many agents and tasks, it has no bound. The proof is
+// at the head of route_bound.cpp. Repeatable, unless a limit is reached. One thread at a time.
 class RouteBound {
  public:
   // `routes`: good routes, which determine the first multipliers. Their RouteCosts must outlive
