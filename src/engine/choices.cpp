@@ -55,9 +55,8 @@ bool is_within(const Solution& solution, Omega omega) {
 }
 
 // Searches one assignment after the other for plans, exchanges tasks and goals between the agents
-// of the best plan, and searches all assignments at once for a bound. Ends
-// when the search over all assignments is over, or is not possible, and no further assignment leads
-// to a cheaper plan.
+// of the best plan, and searches all assignments at once for a bound. Ends when the search over all
+// assignments is over, or is not possible, and no further assignment leads to a cheaper plan.
 class ChoicesRun {
  public:
   ChoicesRun(const Instance& instance, const SolveOptions& options, const Limits& limits,
@@ -79,13 +78,11 @@ class ChoicesRun {
     while (!limits_.stop_requested() && !is_over() && (can_search_all() || can_search_next())) {
       const bool can_search_plans = can_search_next() || best_.plan;
       const bool is_turn_of_bounds =
-          can_search_all() && (spent_on_bounds_ <= spent_on_plans_ || !can_search_plans);
-      const auto start = limits_.now();
+          can_search_all() && (spent_on_bounds_ <= spent_on_plans() || !can_search_plans);
       if (is_turn_of_bounds)
-        search_all(route_bound);
+        search_bounds(route_bound);
       else
         search_plans(assignments);
-      (is_turn_of_bounds ? spent_on_bounds_ : spent_on_plans_) += seconds_since(start);
     }
     return finish();
   }
@@ -109,12 +106,19 @@ class ChoicesRun {
   }
 
   bool can_search_all() const { return cutoff_margin_ > 0; }
+  double spent_on_plans() const { return spent_on_exchanges_ + spent_on_assignments_; }
   bool can_search_next() const { return failures_ < kMaxFailures; }
 
   // Deterministic runs count calls instead.
   double seconds_since(Limits::Clock::time_point start) const {
     if (options_.deterministic) return 1;
     return std::chrono::duration<double>(limits_.now() - start).count();
+  }
+
+  void search_bounds(RouteBound& route_bound) {
+    const auto start = limits_.now();
+    search_all(route_bound);
+    spent_on_bounds_ += seconds_since(start);
   }
 
   // Further assignments and exchanges between the agents of the incumbent get equal time.
@@ -285,7 +289,6 @@ class ChoicesRun {
   // Seconds; in deterministic runs, calls. Bounds and plans take turns, and for plans exchanges and
   // assignments.
   double spent_on_bounds_ = 0;
-  double spent_on_plans_ = 0;
   double spent_on_exchanges_ = 0;
   double spent_on_assignments_ = 0;
   int searched_ = 0;
