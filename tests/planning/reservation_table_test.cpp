@@ -179,16 +179,27 @@ class Fuzzer {
     return path;
   }
 
+  // Finds `expected` with constraints and `path` with reservations. Both must have the same
+  // outcome.
+  template <class Goals, class Search>
+  Outcome find_both(Goals& goals, Search& search, const ReservationTable& reservations,
+                    const std::vector<Path>& walks, Path& expected, Path& path) {
+    std::vector<Constraint> constraints;
+    for (const Path& walk : walks) bar(walk, constraints);
+    const Outcome outcome = search.find(goals, {constraints}, Limits(), expected);
+    const PathQuery query{.reservations = &reservations};
+    const Outcome same = search.find(goals, query, Limits(), path);
+    EXPECT_EQ(same, outcome);
+    return same == outcome ? outcome : Outcome::kStopped;
+  }
+
   void compare(SequenceStages& goals, FreeOrderSipp& search, const ReservationTable& reservations,
                const std::vector<Path>& walks) {
     ++compared;
-    std::vector<Constraint> constraints;
-    for (const Path& walk : walks) bar(walk, constraints);
     Path expected;
     Path path;
     const Limits limits;
-    const Outcome outcome = search.find(goals, {constraints}, limits, expected);
-    ASSERT_EQ(search.find(goals, {.reservations = &reservations}, limits, path), outcome);
+    const Outcome outcome = find_both(goals, search, reservations, walks, expected, path);
     if (outcome != Outcome::kFound) {
       const PathQuery query{
           .cutoff = below(40), .reservations = &reservations, .inflation_percent = below(3) * 50};
@@ -221,13 +232,10 @@ class Fuzzer {
 
   void compare(const GoalSequence& goals, FixedOrderSipp& search,
                const ReservationTable& reservations, const std::vector<Path>& walks) {
-    std::vector<Constraint> constraints;
-    for (const Path& walk : walks) bar(walk, constraints);
     Path expected;
     Path path;
     const Limits limits;
-    const Outcome outcome = search.find(goals, {constraints}, limits, expected);
-    ASSERT_EQ(search.find(goals, {.reservations = &reservations}, limits, path), outcome);
+    const Outcome outcome = find_both(goals, search, reservations, walks, expected, path);
     PathQuery query{.cutoff = below(40), .reservations = &reservations};
     if (outcome != Outcome::kFound) {
       EXPECT_NE(search.find(goals, query, limits, path), Outcome::kFound);
