@@ -134,9 +134,58 @@ AgentWalks make_agent_walks(const RouteCosts& costs, AgentIndex index,
 
 bool AgentWalks::forbid_cycle(const RouteCosts& costs, const std::vector<std::int32_t>& cycle) {
   const std::vector<std::int32_t> changed = forward.forbid_cycle(cycle);
+  if (!has_all_legs) return !changed.empty();
   LegBuilder legs(costs, *this);
   for (const std::int32_t from : changed) legs.add_from(from);  // which legs are needed changes
   return !changed.empty();
+}
+
+void AgentWalks::keep_legs(
+    const RouteCosts& costs,
+    const std::function<bool(std::int32_t, std::int32_t, std::int64_t)>& keep) {
+  for (std::int32_t stop = 0; stop < std::ssize(tasks); ++stop) {
+    std::vector<NgStops::Leg> legs = legs_from(costs, stop);
+    std::erase_if(legs, [&](const NgStops::Leg& leg) { return !keep(stop, leg.to, leg.cost); });
+    forward.stops[stop].legs = std::move(legs);
+    if (has_all_legs) {
+      const Time steps = costs.from_start(agent, tasks[stop]);
+      forward.stops[stop].first = steps < kNever ? steps * kUnit : NgStops::kNoWalk;
+    }
+    std::int64_t& first = forward.stops[stop].first;
+    if (first < NgStops::kNoWalk && !keep(-1, stop, first)) first = NgStops::kNoWalk;
+  }
+  has_all_legs = false;
+}
+
+// All legs before keep_legs(), then those that are left.
+std::vector<NgStops::Leg> AgentWalks::legs_from(const RouteCosts& costs, std::int32_t from) const {
+  if (!has_all_legs) return forward.stops[from].legs;
+  std::vector<NgStops::Leg> legs;
+  for (std::int32_t to = 0; to < std::ssize(tasks); ++to) {
+    const Time steps = costs.between(agent, tasks[from], tasks[to]);
+    if (from != to && steps < kNever) legs.push_back({to, steps * kUnit, 0});
+  }
+  std::ranges::stable_sort(legs, {}, &NgStops::Leg::cost);
+  return legs;
+}
+
+std::size_t AgentWalks::bytes() const {
+  std::size_t bytes = tasks.size() * (tasks.size() + goals.size() * sizeof(Time));
+  for (const NgStops::Stop& stop : forward.stops) bytes += stop.legs.size() * sizeof(NgStops::Leg);
+  return bytes;
+}
+
+void AgentWalks::exclude(std::int32_t excluded) {
+  for (NgStops::Stop& stop : forward.stops)
+    std::erase_if(stop.legs, [&](const NgStops::Leg& leg) { return leg.to == excluded; });
+  forward.stops[excluded].legs.clear();
+  forward.stops[excluded].first = NgStops::kNoWalk;
+}
+
+void AgentWalks::exclude_goal(Place goal) {
+  const auto position = std::ranges::find(goals, goal) - goals.begin();
+  start_to_goals[position] = kNever;
+  for (std::vector<Time>& to_goal : to_goals) to_goal[position] = kNever;
 }
 
 NgStops AgentWalks::reversed(const RouteCosts& costs,
@@ -147,10 +196,8 @@ NgStops AgentWalks::reversed(const RouteCosts& costs,
     reverse.stops[stop].legs.clear();
   }
   for (std::int32_t from = 0; from < std::ssize(tasks); ++from)
-    for (std::int32_t to = 0; to < std::ssize(tasks); ++to) {
-      const Time steps = costs.between(agent, tasks[from], tasks[to]);
-      if (from != to && steps < kNever) reverse.stops[to].legs.push_back({from, steps * kUnit, 0});
-    }
+    for (const NgStops::Leg& leg : legs_from(costs, from))
+      reverse.stops[leg.to].legs.push_back({from, leg.cost, 0});
   return reverse;
 }
 

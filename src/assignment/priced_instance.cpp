@@ -199,7 +199,9 @@ class Reformulation {
     for (const TaskIndex task : tasks_at(priced, agent, stop)) {
       const Task& of = priced.task(task);
       const bool is_needed = static_cast<int>(of.agents.size()) == instance_.task(task).need;
-      if (is_needed || task_at_start(instance_, agent) == task) return kNever;
+      if (is_needed || std::ranges::binary_search(choices_[agent].required, task) ||
+          task_at_start(instance_, agent) == task)
+        return kNever;
       price += price_of(priced, task);
     }
     return price;
@@ -310,7 +312,8 @@ AgentPlan agent_plan_of(const Instance& instance, const PricedInstance& priced, 
 
 std::optional<std::vector<RouteBound::Choices>> all_choices(const Instance& instance) {
   std::vector<RouteBound::Choices> choices;
-  for (const Agent& agent : instance.agents()) choices.push_back({agent.options, agent.goals});
+  for (const Agent& agent : instance.agents())
+    choices.push_back({.visits = agent.options, .required = {}, .goals = agent.goals});
   return choices;
 }
 
