@@ -98,11 +98,15 @@ class AllAssignmentsCores : public AllAssignmentsSearch {
 
 }  // namespace
 
+bool AllAssignmentsSearch::is_available(const SolveOptions& options) {
+  return techniques_of(options).has(Technique::kCores);
+}
+
 std::unique_ptr<AllAssignmentsSearch> AllAssignmentsSearch::make(const Instance& instance,
                                                                  RouteBound& bound, Cost cutoff,
                                                                  const SolveOptions& options,
                                                                  const Limits& limits) {
-  if (!techniques_of(options).has(Technique::kCores)) return nullptr;
+  if (!is_available(options)) return nullptr;
   std::optional<PricedInstance> priced;
   const Fixing fixing = options.proof ? Fixing::kNone : Fixing::kByReducedCosts;
   switch (price_choices(instance, bound, cutoff, fixing, limits, priced)) {
@@ -120,6 +124,10 @@ std::unique_ptr<AllAssignmentsSearch> AllAssignmentsSearch::make(const Instance&
 }  // namespace grove::detail
 #else
 namespace grove::detail {
+
+bool AllAssignmentsSearch::is_available(const SolveOptions&) {
+  return false;
+}
 
 std::unique_ptr<AllAssignmentsSearch> AllAssignmentsSearch::make(const Instance&, RouteBound&, Cost,
                                                                  const SolveOptions&,

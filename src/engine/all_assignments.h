@@ -17,8 +17,10 @@ namespace grove::detail {
 // they leave out and for their goals (assignment/priced_instance.h). One thread at a time.
 class AllAssignmentsSearch {
  public:
+  // False if cores are disabled in the build or in `options`.
+  static bool is_available(const SolveOptions& options);
   // Prepares a search for plans that cost less than `cutoff`. Returns nullptr if price_choices() is
-  // not possible, or if cores are disabled in the build or in `options`. With a proof log, the
+  // not possible, or if is_available() is false. With a proof log, the
   // search logs a formula, and reduced cost fixing is off. All arguments except
   // `bound` must outlive the object.
   static std::unique_ptr<AllAssignmentsSearch> make(const Instance& instance, RouteBound& bound,

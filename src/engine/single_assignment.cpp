@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "engine/single_assignment.h"
 
+#include <chrono>
+
 namespace grove::detail {
 
 Limits part_of(const Limits& limits, const SolveOptions& options, double share) {
   const double seconds = limits.seconds_left();
   return {limits, options.deterministic ? seconds : share * seconds};
+}
+
+double turn_seconds(const SolveOptions& options, const Limits& limits,
+                    Limits::Clock::time_point start) {
+  if (options.deterministic) return 1;
+  return std::chrono::duration<double>(limits.now() - start).count();
 }
 
 Restriction restriction_to(const Instance& instance, const Assignment& assignment, Cost bound,

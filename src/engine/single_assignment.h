@@ -16,6 +16,11 @@ namespace grove::detail {
 // divide the time.
 Limits part_of(const Limits& limits, const SolveOptions& options, double share);
 
+// The time since `start`, by which searches take turns: seconds. Deterministic runs count calls
+// instead, so the result is 1.
+double turn_seconds(const SolveOptions& options, const Limits& limits,
+                    Limits::Clock::time_point start);
+
 // The restriction of `instance`, which must outlive it, to an assignment. `bound`, `cutoff`: see
 // Restriction. Throws InstanceError like with_assignment().
 Restriction restriction_to(const Instance& instance, const Assignment& assignment, Cost bound,
