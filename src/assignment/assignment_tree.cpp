@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: MIT
-// *Claim: every plan that costs less than the cutoff costs at least the least bound of an open node
-// or of the leaf that is not resolved.* *Proof.* The routes of a plan make choices
-// (route_relaxation.cpp), which are those of exactly one child at each branching. So they are left
-// in some node. Either this node is open or not resolved, and its bound holds for the plan; or it
-// was closed because its bound is at least the cutoff, or because no plan below the cutoff makes
-// the choices that are left. Cutoffs only fall.
+// *Claim: every plan that costs less than the cutoff costs at least the least bound of the open
+// nodes and of the node that run() has returned and resolve() has not yet put back.* *Proof.* The
+// routes of such a plan (route_relaxation.cpp) make choices. Each branching leaves them in exactly
+// one child. Reduced cost fixing removes them only if the plan costs at least the cutoff, and
+// propagation removes only choices that no plan makes. So they are left in one node. Its bound, and
+// the one given to resolve(), hold for the plan. A node is dropped only if its bound is at least
+// the cutoff or it is infeasible. The cutoff never rises, so a dropped node need not be opened
+// again.
 //
-// *Branching.* The walks of the last subgradient steps approximate a solution of the linear
-// relaxation over walks. Candidates are the choices whose share in these walks is the nearest to
-// one half. Of a few, the best is found by some steps for both children (strong branching:
-// Applegate, Bixby, Chvatal and Cook 1995), with the product of the gains as the score (Achterberg
-// 2007).
+// *Branching.* An exponentially weighted average of the walks of recent subgradient iterations
+// approximates a solution of the linear relaxation over walks (volume algorithm: Barahona and Anbil
+// 2000). Candidates are the choices whose share in it is nearest to one half. For a few candidates
+// both children are evaluated with some iterations (strong branching: Applegate, Bixby, Chvatal and
+// Cook 1995). The score is the product of the gains (Achterberg 2007).
 //
-// An agent that starts while it executes an optional task visits it in each plan. Another agent may
-// then rest on this task although it needs no further visits; if an agent without a destination
-// makes this possible, the tree is not used.
+// *Begun tasks.* An agent that starts while it executes an optional task visits it in every plan,
+// so this visit cannot be left out. Then routes need not have exactly `need` visits: an agent
+// without a destination could also rest on the task, or more agents than `need` could start on it.
+// In both cases the tree is not used.
 #include "assignment/assignment_tree.h"
 
 #include <algorithm>
@@ -30,7 +33,7 @@ namespace {
 constexpr std::size_t kCandidates = 4;
 constexpr std::int64_t kTrialEffort = 200'000;  // per child of a candidate
 constexpr std::int64_t kChildEffort = 1'000'000;
-constexpr double kLeastGain = 5;  // in fine units of the bound, for the product
+constexpr double kMinGain = 5;  // in fine units of the bound, for the product
 }  // namespace
 
 struct AssignmentTree::Node {
@@ -41,7 +44,7 @@ struct AssignmentTree::Node {
   bool is_leaf = false;
 };
 
-// Nodes with a lower bound come first, then the deeper ones.
+// Nodes with a smaller bound first; among equal bounds, deeper nodes first.
 struct AssignmentTree::ByBound {
   bool operator()(const Node& a, const Node& b) const {
     return a.proven != b.proven ? a.proven > b.proven : a.depth < b.depth;
@@ -178,7 +181,7 @@ std::vector<AssignmentTree::Node> AssignmentTree::best_children(
       candidate.decide(*child.bound, is_chosen);
       if (child.bound->is_feasible()) child.bound->improve(kTrialEffort, limits);
       closes_one |= !child.bound->is_feasible() || child.bound->lower_bound() >= cutoff_;
-      score *= std::max(kLeastGain,
+      score *= std::max(kMinGain,
                         static_cast<double>(child.bound->fine_bound() - node.bound->fine_bound()));
     }
     if (closes_one) return children;

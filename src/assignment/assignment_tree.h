@@ -31,11 +31,14 @@ class AssignmentTree {
     kOpen,    // the effort is spent, or a limit is reached
     kNode,    // see node()
     kClosed,  // proven: no plan costs less than the cutoff
-    kStuck,   // the bound cannot rise: there are too many nodes, or a leaf has no better bound
+    // The bound cannot rise: the nodes need too much memory, the least bound is that of a leaf that
+    // was returned before, or the tree cannot be used (assignment_tree.cpp, or no Lagrangian
+    // bound).
+    kStuck,
   };
-  // Continues for about `effort` labels (model/effort.h), for plans that cost less than `cutoff`,
-  // which must not exceed that of the last call. After kNode, resolve() must come first.
-  // offer_nodes: returns each node before it is branched, and not only leaves.
+  // Continues for about `effort` scanned legs (NgWalks::effort()), for plans that cost less than
+  // `cutoff`, which must not exceed that of the last call. After kNode, resolve() must come first.
+  // offer_nodes: also returns each inner node once, before it is branched on.
   Outcome run(Cost cutoff, std::int64_t effort, bool offer_nodes, const Limits& limits);
 
   // After kNode: the open node with the least bound, for a search by other means.

@@ -86,7 +86,8 @@ std::vector<AgentIndex> ChoiceNeighborhoods::draw_agents() {
   return agents;
 }
 
-// The least leg from a stop of the one to an optional task of the other.
+// The least cost of a leg from the start or an optional task of one of the two agents to an
+// optional task of the other.
 std::int64_t ChoiceNeighborhoods::distance(AgentIndex from, AgentIndex to) const {
   std::int64_t least = kNever;
   for (const TaskIndex task : assignment_[to].visits) {

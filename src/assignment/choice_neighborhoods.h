@@ -18,12 +18,14 @@
 
 namespace grove::detail {
 
-// Draws neighbourhoods for large neighbourhood search by an exact search, as in local branching and
-// RINS for integer programs (Danna, Rothberg and Le Pape 2005): in a neighbourhood, a few adjacent
-// agents exchange their tasks and goals freely, and the others keep theirs. Choices that no cheaper
-// plan can make (reduced cost fixing) are also free. The number of free agents grows while no
-// cheaper plan is found. Heuristic: the search of a neighbourhood proves nothing for others.
-// Repeatable, unless a limit is reached. One thread at a time.
+// Neighbourhoods for large neighbourhood search (Shaw 1998) in which the repair step is an exact
+// search, as in RINS for integer programs (Danna, Rothberg and Le Pape 2005). In a neighbourhood, a
+// few agents close to each other exchange their tasks and goals freely, and the others keep theirs.
+// If no cheaper plan contains a visit or a goal of the plan (reduced cost fixing), it is removed:
+// any agent may take that task, and that agent any goal. The number of free agents begins at 3 for
+// each plan and grows by 1 after as many draws as there are agents. Heuristic: the search of a
+// neighbourhood proves nothing for others. Repeatable, unless a limit is reached. One thread at a
+// time.
 class ChoiceNeighborhoods {
  public:
   // Makes a copy of `bound`. `routes`: any routes of the instance, of which only the costs are

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Subgradient ascent. The bound for given multipliers is that of route_relaxation.h, and its lower
-// bound is rounded up. Integral multipliers are found by local search.
+// Subgradient ascent. The bound for given multipliers is that of route_relaxation.h; lower_bound()
+// rounds it up, because costs are integral. Integral multipliers are found by local search.
 #include "assignment/route_bound.h"
 
 #include <algorithm>
@@ -21,8 +21,8 @@ constexpr double kFirstFactor = 0.5;         // of the step size by Polyak
 constexpr double kFactorAfterChoices = 0.1;  // the same after choices are fixed or decided
 constexpr double kLastFactor = 0.005;
 constexpr double kRetreatFactor = 0.9;  // of the factor, after multipliers without a bound
-constexpr int kRoundings = 60;          // sets of whole multipliers that are tried
-constexpr int kPatience = 6;            // steps without progress before the factor is halved
+constexpr int kRoundings = 60;          // sets of integral multipliers that are tried
+constexpr int kPatience = 6;            // iterations without progress before the factor is halved
 
 }  // namespace
 
@@ -92,8 +92,8 @@ class RouteBound::Ascent {
     failures_ = 0;
   }
 
-  // Local search from the rounded multipliers: some of those whose condition the walks violate or
-  // exceed change by a step.
+  // Local search from the rounded multipliers: each multiplier whose condition is not met with
+  // equality changes by 1 with probability 1/4.
   std::optional<Multipliers> rounded(std::int64_t max_effort, const Limits& limits) {
     if (!best_) return std::nullopt;
     const std::int64_t end = effort() + max_effort;
@@ -137,8 +137,8 @@ class RouteBound::Ascent {
 
   std::int64_t effort() const { return relaxation_.effort(); }
 
-  // The first multipliers: what a route would cost less without the visit, and the prices of the
-  // goals for the ends of the routes.
+  // The first multipliers: for a visit, the least saving of a route without it; for a goal, the
+  // dual price of an optimal assignment of the agents to goals.
   void start_with(const Routes& routes) {
     now_.on_visits.assign(relaxation_.needs().size(), 0);
     std::vector<bool> is_set(relaxation_.needs().size(), false);
@@ -219,7 +219,7 @@ class RouteBound::Ascent {
   RouteMultipliers now_;
   std::optional<Best> best_;
   double factor_ = kFirstFactor;
-  int failures_ = 0;  // steps since the last progress
+  int failures_ = 0;  // iterations since the last progress
 };
 
 RouteBound::RouteBound(const Routes& routes) : ascent_(std::make_unique<Ascent>(routes)) {}

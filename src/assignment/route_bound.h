@@ -33,26 +33,27 @@ class RouteBound {
   RouteBound& operator=(const RouteBound&) = delete;
   ~RouteBound();
 
-  // Improves the multipliers by subgradient steps, until the bound reaches the cost of the routes
-  // or the cutoff of the last fix(), or about `max_effort` labels (model/effort.h) are done, or a
-  // limit is reached.
+  // Improves the multipliers by subgradient iterations, until the bound reaches the cost of the
+  // routes or the cutoff of the last fix(), or the step size is too small, or about `max_effort`
+  // legs are scanned (NgWalks::effort()), or a limit is reached.
   void improve(std::int64_t max_effort, const Limits& limits);
   // False if a further call of improve() would do nothing.
   bool can_improve() const;
 
-  // The greatest bound so far; 0 before the first step. After fix() and decisions it holds for the
-  // plans that they leave.
+  // The greatest bound so far; 0 before the first iteration. After fix() and decisions it holds for
+  // the plans that they leave.
   Cost lower_bound() const;
   // The same in 1 / AgentWalks::kUnit steps, before it is rounded up.
   std::int64_t fine_bound() const;
 
-  // The choices that an agent may make in a plan that costs less than `cutoff`, by AgentIndex. The
-  // others are proven to cost at least that much (reduced cost fixing). Returns nullopt if there is
-  // no bound yet, or if a limit is reached.
+  // The choices that an agent may make in a plan that costs less than `cutoff`, by AgentIndex.
+  // Every plan that makes another choice costs at least `cutoff` (reduced cost fixing). Returns
+  // nullopt if there is no bound yet, or if a limit is reached.
   std::optional<std::vector<Choices>> choices_below(Cost cutoff, const Limits& limits);
 
   // Leaves the plans that cost less than `cutoff`: removes the choices and the legs of others.
-  // Returns false like choices_below(). Precondition: `cutoff` is at most that of the last call.
+  // Returns false where choices_below() returns nullopt. Precondition: `cutoff` is at most that of
+  // the last call.
   bool fix(Cost cutoff, const Limits& limits);
   // Leaves only `choices`, by AgentIndex, and decides the choices that follow. Precondition: after
   // fix().
@@ -65,8 +66,8 @@ class RouteBound {
   double share_of_goal(AgentIndex agent, Place goal) const;
 
   // Integral multipliers, in steps, with a good bound, found by local search from the best
-  // multipliers with about `max_effort` labels. Returns nullopt if there is no bound yet, or if it
-  // finds none, or if a limit is reached.
+  // multipliers with about `max_effort` scanned legs. Returns nullopt if there is no bound yet, or
+  // if it finds none, or if a limit is reached.
   struct Multipliers {
     std::vector<Time> on_visits;                   // by task; 0 for tasks without a choice
     std::vector<std::pair<Place, Time>> on_goals;  // by possible destination
@@ -78,7 +79,7 @@ class RouteBound {
   std::vector<TaskIndex> neighborhood(AgentIndex agent, TaskIndex task) const;
 
   std::size_t bytes() const;  // of its largest parts
-  // The effort of all copies so far, in labels.
+  // The number of legs that all copies have scanned.
   std::int64_t effort() const;
 
  private:

@@ -1,41 +1,53 @@
 // SPDX-License-Identifier: MIT
 // *Relaxation.* A route of agent a starts at its start, visits tasks, and ends at one of its goals
-// or, if it has none, at its last task. Each plan contains such routes, whose legs cost at most the
-// agents' costs: the tasks in the order in which an agent first visits them, after the task that it
-// executes at the start. Together they visit each task with a choice of agents `need` times, each
-// agent visits the tasks that it must visit, and at most one route ends at each goal. (Further
-// visits are left out, but not that of an agent that rests on the task: at most one does.) Let
+// or, if it has none, at its last task. Each plan contains such routes: an agent's route has the
+// tasks in the order in which the agent first visits them, after the task that it executes at the
+// start. The cost of a route, the sum of its legs, is at most the agent's cost in the plan.
+// Together the routes visit each task with a choice of agents `need` times, each agent visits the
+// tasks that it must visit, and at most one route ends at each goal. (The bound needs only `need`
+// visits or more; decisions need exactly as many. So surplus visits are left out. The visit of an
+// agent that rests on the task is kept, because in the search of a node (priced_instance.h) an
+// agent rests only on tasks that are left to it. At most one agent rests there, and need >= 1.) Let
 // there be a multiplier m >= 0 for each of these conditions. The reduced cost of a route is its
 // cost, minus the multipliers of its visits, plus the multiplier of its goal. *Claim: the sum over
 // the agents of the least reduced costs, plus the sum of need * m over the conditions on visits,
-// minus the sum of m over the goals, is a lower bound on the cost of every plan.* *Proof.* For the
-// routes of a plan the value is at most the sum of their costs, because each condition holds and m
-// >= 0.
+// minus the sum of m over the goals, is a lower bound on the cost of every plan.* *Proof.* With the
+// routes of a plan instead of the least reduced costs, this sum is at most the sum of their costs,
+// because each condition holds and m >= 0.
 //
 // The least reduced cost of an agent is computed over walks that may repeat visits (ng_walks.h), so
 // it is a lower bound for its routes. If there is no minimum, these multipliers give no bound. A
 // few of the tasks that the agent must visit are always remembered, and a walk without them does
 // not end; so their conditions are exact and have no multiplier.
 //
-// *Fixing.* If agent a visits t, its least reduced cost in the bound can be replaced by that of a
-// walk that visits t. This is at least the least cost of a label at t, plus that of a label at t of
-// the reverse walks from the ends, plus the multiplier of t, which both have subtracted. (Of the
-// tasks that are always remembered, each is in one of the two labels.) The bound and all reduced
-// costs are computed with the same neighbourhoods, because a larger neighbourhood can also lower
-// the cost of a walk. If the resulting bound is at least the cutoff, no plan that costs less
-// contains the visit. The same holds for a goal and the walks that end there, and for a leg from t
-// to u: the label at t, the leg, and the reverse label at u.
+// *Fixing.* If agent a visits t, its term in the bound can be replaced by a lower bound on the
+// reduced cost of its routes through t. Split such a route at t. The part up to t costs at least
+// the least reduced cost of a forward label at t. The part from t costs at least that of a label at
+// t of the reverse walks from the ends. Both subtract the multiplier of t, so it is added once.
+// (Each task that is always remembered is in exactly one of the two parts, so only labels with
+// complementary sets are combined.) The bound minus the agent's term must be the sum over the other
+// agents, so both are computed with the same neighbourhoods. If the resulting bound is at least the
+// cutoff, no plan that costs less contains the visit. The same holds for a goal and the walks that
+// end there, and for a leg from t to u: the label at t, the leg, and the reverse label at u.
 //
-// It remains to show that the forward label at t costs at most the route before t, although forward
-// walks leave out some legs (agent_walks.cpp). Choose routes in which no later stop w without a
-// duration lies on a shortest path of a leg, if the agent turns freely. (Else visit w on this leg
-// instead. The route costs no more, and w is visited earlier, so this ends.) Where a forward walk
-// goes from x to y through stops w, they lie on shortest paths from x to y, so none of them is a
-// later stop of the route. So the label remembers no later stop, and follows the route up to t.
+// It remains to show that some forward label at t has at most the reduced cost of the route up to
+// t, although forward walks leave out some legs (agent_walks.cpp). If the agent needs time to turn,
+// they leave out none. Otherwise choose routes such that no later stop w without a duration lies
+// strictly inside a shortest path of a leg from u to v, that is, in neither the cell of u nor that
+// of v. (Such routes exist: otherwise move w between u and v. By the triangle inequality the route
+// costs no more. The first leg that changes becomes shorter, so the sequence of leg costs decreases
+// lexicographically, and this ends.) By induction there is a label at each stop of the route up to
+// t whose reduced cost is at most that of the route so far, and which remembers no later stop.
+// Between stops x and y of the route it may have to go through further stops w. These lie strictly
+// inside shortest paths from x to y. So they are no later stops, add no length, and have prizes >=
+// 0. An always remembered w is thus an earlier stop of the route, so the label has the same always
+// remembered tasks as the route. A label that dominates it has the same such tasks, remembers no
+// more, and costs no more.
 //
 // *After fixing* walks have the legs that are left, without further conditions (NgStops::Leg). They
-// include the legs of the chosen routes of each plan that costs less than the cutoff, so the
-// argument holds for these plans, also when it is repeated.
+// include the legs of the chosen routes of each plan that costs less than the cutoff. The chosen
+// routes of a plan depend neither on the multipliers nor on the cutoff, so fixing can be repeated
+// with other multipliers and a lower cutoff.
 //
 // *Decisions* partition the plans by the visits and goals of their routes: those in which agent a
 // visits t, and the others; those in which it ends on g, and the others. If a must visit t, its

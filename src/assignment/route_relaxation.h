@@ -35,7 +35,7 @@ class RouteRelaxation {
   // All choices. `costs` must outlive this object and its copies.
   explicit RouteRelaxation(const RouteCosts& costs);
 
-  // True if there are too many agents and tasks. Nothing else may then be called.
+  // True if the agents have too many legs in total. Nothing else may then be called.
   bool is_too_large() const { return agents_.empty(); }
   const std::vector<Place>& places() const { return places_; }  // the destinations of all agents
   // By condition on visits: the least number of visits, and the task.
@@ -46,7 +46,7 @@ class RouteRelaxation {
   // In units of legs that are scanned, of all copies.
   std::int64_t effort() const { return walks_->effort(); }
 
-  // Computes the bound. Neighbourhoods can grow, so a repetition can give a better bound.
+  // Computes the bound. It may enlarge neighbourhoods, so a second call can have another result.
   NgWalks::Outcome evaluate(const RouteMultipliers& multipliers, std::int64_t max_effort,
                             const Limits& limits);
   // After kFound.
@@ -62,7 +62,7 @@ class RouteRelaxation {
   std::optional<std::vector<RouteChoices>> choices_below(const RouteMultipliers& multipliers,
                                                          Cost cutoff, const Limits& limits);
   // Leaves only these choices and the legs of such plans. From now on the bound holds for plans
-  // that cost less than `cutoff`. Returns false like choices_below().
+  // that cost less than `cutoff`. Returns false where choices_below() returns nullopt.
   bool fix(const RouteMultipliers& multipliers, Cost cutoff, const Limits& limits);
 
   // Leaves only `choices`, by AgentIndex, and decides the choices that follow. Precondition: after
@@ -75,7 +75,8 @@ class RouteRelaxation {
 
   std::size_t bytes() const;  // of its largest parts
 
-  // The share of recent evaluations in which the agent visits the task or ends on the goal.
+  // Exponentially weighted share of the evaluations in which the agent visits the task or ends on
+  // the goal.
   double share(AgentIndex agent, TaskIndex task) const;
   double share_of_goal(AgentIndex agent, Place goal) const;
 

@@ -37,13 +37,15 @@ constexpr double kOtherShare = 0.125;
 // The same, if all assignments are searched at once as well.
 constexpr double kFirstShareWithAll = 0.1;
 constexpr double kOtherShareWithAll = 0.05;
-constexpr std::int64_t kExchangeEffort = 300'000;        // of exchanges without a gain, about 0.1 s
-constexpr std::int64_t kNeighborhoodEffort = 1'000'000;  // of cores
-constexpr int kFailuresWithoutAssignment = 20;           // that count if no assignment is found
+constexpr std::int64_t kExchangeEffort = 300'000;  // per turn without an improvement, about 0.1 s
+constexpr std::int64_t kNeighborhoodEffort =
+    1'000'000;                                  // of the core-guided search, per neighbourhood
+constexpr int kFailuresWithoutAssignment = 20;  // added to the failures if no assignment is found
 constexpr int kMaxFailures = 200;  // assignments in succession that lead to no cheaper plan
 
-// Three searches of plans, which get equal time: one assignment after the other; exchanges of tasks
-// and goals between agents of the best plan; and its neighbourhoods, by cores.
+// Three primal heuristics, which get equal time: searches of one assignment after the other;
+// exchanges of tasks and goals between agents of the best plan; core-guided search of its
+// neighbourhoods.
 class PlanSearches {
  public:
   PlanSearches(const Instance& instance, const SolveOptions& options, const Limits& limits,
@@ -132,8 +134,8 @@ class PlanSearches {
   ChoiceNeighborhoods& neighborhoods_;
   ChoicesResult& result_;
   int failures_ = 0;  // assignments in succession without a cheaper plan
-  // The costs of the plans from which exchanges continue, of which neighbourhoods are drawn, and of
-  // which there are no further ones.
+  // Cost of the plan from which exchanges continue, of the plan whose neighbourhoods are drawn, and
+  // of the plan whose neighbourhoods are exhausted.
   Cost exchanged_ = kInfiniteCost;
   Cost with_neighborhoods_ = kInfiniteCost;
   Cost without_neighborhoods_ = kInfiniteCost;
@@ -143,8 +145,8 @@ class PlanSearches {
   double spent_on_neighborhoods_ = 0;
 };
 
-// Bounds and plans get equal time. Ends when neither the bound nor an assignment leads further.
-// `spent`: on bounds before.
+// Bounding searches and primal heuristics get equal time. Ends when no bounding search can continue
+// and no assignment is left. `spent`: time already spent on bounds.
 void search_in_turns(const SolveOptions& options, const Limits& limits, const Assignment& first,
                      PlanSearches& plans, ChoicesBounds& bounds, const ChoicesResult& result,
                      double spent) {

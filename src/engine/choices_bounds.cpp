@@ -15,21 +15,23 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::int64_t kAllEffort = 2'000'000;   // per turn of cores
-constexpr std::int64_t kTreeEffort = 2'000'000;  // per turn of the tree
-constexpr std::int64_t kNodeEffort = 1'000'000;  // of cores per node
+// Effort per turn of the core-guided search, and per node of the tree (model/effort.h).
+constexpr std::int64_t kAllEffort = 2'000'000;
+constexpr std::int64_t kNodeEffort = 1'000'000;
+// Scanned legs per turn of the tree (NgWalks::effort()).
+constexpr std::int64_t kTreeEffort = 2'000'000;
 constexpr std::size_t kTreeBytes = std::size_t{1} << 30;
 constexpr double kLeafShare = 0.05;  // of the time that is left, per leaf
-// Turns of the tree without a better bound, before cores get turns.
+// Turns of the tree without a better bound before the other search gets turns.
 constexpr int kIdleTurns = 10;
-// The bound by cores no longer rises if it has not for this share of their time, and at least for
-// one second.
+// The bound of the core-guided search has stalled if it has not risen for this share of the time of
+// that search, and for at least one second.
 constexpr double kStallShare = 0.3;
-constexpr double kLeastStall = 1;
-// Effort of the Lagrangian bound (about 1 s), and its share of the time at most.
+constexpr double kMinStall = 1;
+// Scanned legs of the Lagrangian bound (about 1 s), and its share of the time at most.
 constexpr std::int64_t kRoutesEffort = 150'000'000;
 constexpr double kRoutesShare = 0.2;
-constexpr Cost kMarginOffset = 100;  // after a failure the margin is at most half of this + bound
+constexpr Cost kMarginOffset = 100;  // after a failure the margin is at most (bound + this) / 2
 
 bool has_optional_tasks(const Instance& instance) {
   return std::ranges::any_of(instance.agents(), [](const Agent& a) { return !a.options.empty(); });
@@ -59,14 +61,14 @@ bool ChoicesBounds::can_search_tree() const {
          (comes_first() || tree_->lower_bound() >= result_.bound() || is_stalled());
 }
 
-// The tree comes first while its bound rises, until cores have a better bound.
+// The tree comes first while its bound rises, until the other search has a better bound.
 bool ChoicesBounds::comes_first() const {
   return idle_turns_ < kIdleTurns &&
          (spent_on_all_ == 0 || !tree_ || tree_->lower_bound() >= result_.bound());
 }
 
 bool ChoicesBounds::is_stalled() const {
-  return !can_search_all() || since_rise_ > std::max(kLeastStall, kStallShare * spent_on_all_);
+  return !can_search_all() || since_rise_ > std::max(kMinStall, kStallShare * spent_on_all_);
 }
 
 bool ChoicesBounds::is_turn_of_tree() const {
@@ -115,15 +117,15 @@ void ChoicesBounds::search_node() {
   tree_->resolve(proven);
 }
 
-// Searches all assignments for a while. It first considers all plans below the incumbent. If
-// these are too many, it considers only plans that cost less than the bound plus
-// `cutoff_margin_`, and better multipliers, with which fewer choices remain. If it proves that
-// there are none, the bound rises to this cutoff, and the step repeats.
+// Searches all assignments for a while, first for plans below the incumbent. If there are too many
+// choices, it lowers the cutoff to the bound plus `cutoff_margin_`, and improves the multipliers,
+// so that reduced cost fixing leaves fewer choices. If no plan is below this cutoff, the bound
+// rises to the cutoff, and the search starts again.
 void ChoicesBounds::search_all() {
   if (!all_) {
     if (!std::exchange(has_announced_all_, true))
       merged_.note(
-          "Searches all assignments at once by unsatisfiable cores, in turn with single ones.");
+          "Core-guided search over all assignments, alternating with searches of single ones.");
     const Cost bound = result_.bound();
     cutoff_ = cutoff_margin_ < result_.cost() - bound ? bound + cutoff_margin_ : result_.cost();
     all_ = AllAssignmentsSearch::make(instance_, route_bound_, cutoff_, options_, limits_);

@@ -16,16 +16,17 @@ namespace grove::detail {
 // Improves the bound on routes for about 1 s.
 void improve_routes(RouteBound& routes, const SolveOptions& options, const Limits& limits);
 
-// Two searches take turns. Cores search all assignments at once. Branch and bound decides choices
-// (assignment/assignment_tree.h); it comes first while its bound rises. When the bound by cores no
-// longer rises, cores also search nodes of the tree. One thread at a time.
+// Two searches alternate: a core-guided search over all assignments (engine/all_assignments.h), and
+// branch and bound over choices (assignment/assignment_tree.h), which comes first while its bound
+// rises. When the bound of the former has stalled, it also searches nodes of the tree. One thread
+// at a time.
 class ChoicesBounds {
  public:
   // All arguments must outlive this object.
   ChoicesBounds(const Instance& instance, const SolveOptions& options, const Limits& limits,
                 MergedObserver& merged, RouteBound& route_bound, ChoicesResult& result);
 
-  // False if no call of improve() would raise the bound.
+  // False if neither search can continue. It can become true again, for example with a first plan.
   bool can_improve() const { return can_search_all() || can_search_tree(); }
   bool can_search_all() const { return cutoff_margin_ > 0; }
   // Searches for a while, usually less than a second. Precondition: can_improve().
@@ -54,15 +55,16 @@ class ChoicesBounds {
 
   std::unique_ptr<AllAssignmentsSearch> all_;
   bool has_announced_all_ = false;
-  Cost cutoff_ = kInfiniteCost;         // of all_
-  Cost cutoff_margin_ = kInfiniteCost;  // 0: all assignments cannot be searched
+  Cost cutoff_ = kInfiniteCost;  // of all_
+  // The cutoff of all_ is at most the bound plus this. 0: all assignments cannot be searched.
+  Cost cutoff_margin_ = kInfiniteCost;
   std::unique_ptr<AssignmentTree> tree_;
   bool is_tree_over_;
   int idle_turns_ = 0;  // of the tree since its bound rose
   // Seconds; in deterministic runs, calls.
   double spent_on_all_ = 0;
   double spent_on_tree_ = 0;
-  double since_rise_ = 0;  // of the bound by cores; part of spent_on_all_
+  double since_rise_ = 0;  // of the bound of all_; part of spent_on_all_
 };
 
 }  // namespace grove::detail

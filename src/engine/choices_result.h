@@ -37,7 +37,7 @@ class ChoicesResult {
   // lower bound for plans of with_assignment(instance, assignment).
   Cost search(const Assignment& assignment, double share);
   // Searches the plans that cost less than the best one and make the choices that are left in
-  // `choices`, by unsatisfiable cores with about `effort`. Returns a lower bound for them.
+  // `choices`, by a core-guided search with about `effort`. Returns a lower bound for them.
   Cost search(RouteBound& choices, std::int64_t effort);
 
   void use_plan(Plan plan, PlanSource source);
@@ -64,12 +64,12 @@ class ChoicesResult {
 
   const Instance& instance_;
   const SolveOptions& options_;
-  SolveOptions of_part_;  // for searches that prove nothing for all assignments
+  SolveOptions of_part_;  // without the proof log, for searches of a part of the assignments
   const Limits& limits_;
   MergedObserver& merged_;
   Solution best_;
   Cost bound_;
-  Cost certified_ = 0;  // the part of it that the proof log proves
+  Cost certified_ = 0;  // the lower bound that the proof log proves; at most bound_
   int searched_ = 0;    // assignments
   const AllAssignmentsSearch* running_ = nullptr;
   Counters ended_;  // of earlier searches over all assignments
