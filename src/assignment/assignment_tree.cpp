@@ -31,9 +31,20 @@ namespace grove::detail {
 namespace {
 
 constexpr std::size_t kCandidates = 4;
-constexpr std::int64_t kTrialEffort = 200'000;  // per child of a candidate
-constexpr std::int64_t kChildEffort = 1'000'000;
-constexpr double kMinGain = 5;  // in fine units of the bound, for the product
+// Scanned legs: of the root between two fixings.
+constexpr std::int64_t kRootEffort = 30'000'000;
+// Of a child of a candidate, and of other children: `evaluations` of them, within these limits.
+struct Effort {
+  std::int64_t evaluations, least, most;
+  std::int64_t of(const RouteBound& bound) const {
+    return std::clamp(evaluations * bound.evaluation_effort(), least, most);
+  }
+};
+constexpr Effort kTrialEffort = {.evaluations = 4, .least = 200'000, .most = 2'000'000};
+constexpr Effort kChildEffort = {.evaluations = 15, .least = 1'000'000, .most = 20'000'000};
+constexpr std::int64_t kMaxStrong = 500'000;  // legs per evaluation for strong branching
+constexpr std::int64_t kMinRise = 64;         // of the root's bound, in its fine units
+constexpr double kMinGain = 5;                // in fine units of the bound, for the product
 }  // namespace
 
 struct AssignmentTree::Node {
@@ -109,6 +120,10 @@ bool AssignmentTree::expand(Node& node, bool offer_nodes, const Limits& limits) 
   if (!bound.fix(cutoff_, limits) && (node.depth == 0 || limits.stop_requested())) return false;
   if (node.depth == 0 && !require_begun_tasks(bound)) return false;
   if (!bound.is_feasible()) return true;
+  if (node.depth == 0 && improve_root(node, limits)) {
+    push(std::move(node));
+    return true;
+  }
   const std::vector<Branch> candidates = branches(bound);
   node.is_leaf = candidates.empty();
   if (node.is_leaf || (offer_nodes && !node.was_offered)) {
@@ -119,11 +134,20 @@ bool AssignmentTree::expand(Node& node, bool offer_nodes, const Limits& limits) 
   for (Node& child : best_children(node, candidates, limits)) {
     ++nodes_;
     if (!child.bound->is_feasible()) continue;
-    child.bound->improve(kChildEffort, limits);
+    child.bound->improve(kChildEffort.of(*child.bound), limits);
     child.proven = std::max(node.proven, child.bound->lower_bound());
     if (child.proven < cutoff_) push(std::move(child));
   }
   return true;
+}
+
+// Returns true if the bound has risen enough to repeat this after fixing again: with fewer legs the
+// iterations are faster.
+bool AssignmentTree::improve_root(Node& node, const Limits& limits) const {
+  const std::int64_t before = node.bound->fine_bound();
+  node.bound->improve(kRootEffort, limits);
+  node.proven = std::max(node.proven, node.bound->lower_bound());
+  return node.bound->fine_bound() - before >= kMinRise;
 }
 
 // Returns false if further visits to a begun task may be necessary, or more agents execute a task
@@ -159,7 +183,8 @@ std::vector<AssignmentTree::Branch> AssignmentTree::branches(const RouteBound& b
                           .goal = goal,
                           .distance = std::abs(bound.share_of_goal(agent, goal) - 0.5)});
   }
-  const std::size_t count = std::min(branches.size(), kCandidates);
+  const std::size_t count =
+      std::min(branches.size(), bound.evaluation_effort() > kMaxStrong ? 1 : kCandidates);
   std::ranges::partial_sort(branches, branches.begin() + static_cast<std::ptrdiff_t>(count), {},
                             &Branch::distance);
   branches.resize(count);
@@ -179,7 +204,7 @@ std::vector<AssignmentTree::Node> AssignmentTree::best_children(
       Node& child = children.emplace_back(
           Node{.bound = std::make_unique<RouteBound>(*node.bound), .depth = node.depth + 1});
       candidate.decide(*child.bound, is_chosen);
-      if (child.bound->is_feasible()) child.bound->improve(kTrialEffort, limits);
+      if (child.bound->is_feasible()) child.bound->improve(kTrialEffort.of(*child.bound), limits);
       closes_one |= !child.bound->is_feasible() || child.bound->lower_bound() >= cutoff_;
       score *= std::max(kMinGain,
                         static_cast<double>(child.bound->fine_bound() - node.bound->fine_bound()));

@@ -59,6 +59,7 @@ class AssignmentTree {
   struct ByBound;
 
   bool expand(Node& node, bool offer_nodes, const Limits& limits);
+  bool improve_root(Node& node, const Limits& limits) const;
   bool require_begun_tasks(RouteBound& bound) const;
   std::vector<Branch> branches(const RouteBound& bound) const;
   std::vector<Node> best_children(const Node& node, const std::vector<Branch>& candidates,

@@ -39,6 +39,7 @@ class RouteBound::Ascent {
   void improve(std::int64_t max_effort, const Limits& limits) {
     const std::int64_t end = effort() + max_effort;
     while (effort() < end && can_improve()) {
+      const std::int64_t before = effort();
       switch (relaxation_.evaluate(now_, end - effort(), limits)) {
         case NgWalks::Outcome::kStopped:
           return;
@@ -50,6 +51,7 @@ class RouteBound::Ascent {
         case NgWalks::Outcome::kFound:
           break;
       }
+      evaluation_effort_ = effort() - before;
       if (!best_ || relaxation_.bound() > best_->bound) {
         best_ = {relaxation_.bound(), now_};
         failures_ = 0;
@@ -67,6 +69,7 @@ class RouteBound::Ascent {
            factor_ > kLastFactor;
   }
 
+  std::int64_t evaluation_effort() const { return evaluation_effort_; }
   std::int64_t fine_bound() const { return best_ ? std::max<std::int64_t>(0, best_->bound) : 0; }
   Cost lower_bound() const { return (fine_bound() + kUnit - 1) / kUnit; }
 
@@ -220,6 +223,7 @@ class RouteBound::Ascent {
   std::optional<Best> best_;
   double factor_ = kFirstFactor;
   int failures_ = 0;  // iterations since the last progress
+  std::int64_t evaluation_effort_ = 0;
 };
 
 RouteBound::RouteBound(const Routes& routes) : ascent_(std::make_unique<Ascent>(routes)) {}
@@ -284,6 +288,10 @@ std::vector<TaskIndex> RouteBound::neighborhood(AgentIndex agent, TaskIndex task
 
 std::size_t RouteBound::bytes() const {
   return ascent_->relaxation().bytes();
+}
+
+std::int64_t RouteBound::evaluation_effort() const {
+  return ascent_->evaluation_effort();
 }
 
 std::int64_t RouteBound::effort() const {

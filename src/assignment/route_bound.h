@@ -79,6 +79,8 @@ class RouteBound {
   std::vector<TaskIndex> neighborhood(AgentIndex agent, TaskIndex task) const;
 
   std::size_t bytes() const;  // of its largest parts
+  // The number of legs that the last full evaluation of multipliers has scanned; 0: none.
+  std::int64_t evaluation_effort() const;
   // The number of legs that all copies have scanned.
   std::int64_t effort() const;
 
