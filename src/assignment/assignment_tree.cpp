@@ -31,20 +31,22 @@ namespace grove::detail {
 namespace {
 
 constexpr std::size_t kCandidates = 4;
-// Scanned legs: of the root between two fixings.
+// Scanned legs of the root between two fixings.
 constexpr std::int64_t kRootEffort = 30'000'000;
-// Of a child of a candidate, and of other children: `evaluations` of them, within these limits.
+// Scanned legs for `evaluations` evaluations of multipliers, between `least` and `most`.
 struct Effort {
   std::int64_t evaluations, least, most;
   std::int64_t of(const RouteBound& bound) const {
     return std::clamp(evaluations * bound.evaluation_effort(), least, most);
   }
 };
+// For both children of a candidate, and for the children of the chosen one.
 constexpr Effort kTrialEffort = {.evaluations = 4, .least = 200'000, .most = 2'000'000};
 constexpr Effort kChildEffort = {.evaluations = 15, .least = 1'000'000, .most = 20'000'000};
 constexpr std::int64_t kMaxStrong = 500'000;  // legs per evaluation for strong branching
 constexpr std::int64_t kMinRise = 64;         // of the root's bound, in its fine units
 constexpr double kMinGain = 5;                // in fine units of the bound, for the product
+
 }  // namespace
 
 struct AssignmentTree::Node {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kFirstFreeAgents = 3;
 constexpr int kDrawsPerCall = 10;
-constexpr std::int64_t kImproveEffort = 300'000;
+constexpr std::int64_t kImproveEffort = 300'000;  // scanned legs
 
 // The assignment without visits that exceed the needs of tasks.
 Assignment needed_visits(const Instance& instance, Assignment assignment) {

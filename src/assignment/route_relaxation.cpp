@@ -80,11 +80,6 @@ std::int64_t count_legs(const Instance& instance) {
   return legs;
 }
 
-template <class T>
-void insert_sorted(std::vector<T>& values, T value) {
-  values.insert(std::ranges::upper_bound(values, value), value);
-}
-
 }  // namespace
 
 RouteRelaxation::RouteRelaxation(const RouteCosts& costs)
@@ -385,10 +380,11 @@ void RouteRelaxation::restrict_to(const std::vector<RouteChoices>& choices) {
 }
 
 void RouteRelaxation::set_required(AgentIndex agent, TaskIndex task) {
-  if (std::ranges::binary_search(choices_[agent].required, task)) return;
+  std::vector<TaskIndex>& required = choices_[agent].required;
+  if (std::ranges::binary_search(required, task)) return;
   is_feasible_ &= std::ranges::binary_search(choices_[agent].visits, task);
   if (!is_feasible_) return;
-  insert_sorted(choices_[agent].required, task);
+  required.insert(std::ranges::upper_bound(required, task), task);
   agents_[agent].conditions[stop_of(agent, task)] = needs_.size();
   needs_.push_back(1);
   tasks_.push_back(task);

@@ -38,8 +38,7 @@ constexpr double kOtherShare = 0.125;
 constexpr double kFirstShareWithAll = 0.1;
 constexpr double kOtherShareWithAll = 0.05;
 constexpr std::int64_t kExchangeEffort = 300'000;  // per turn without an improvement, about 0.1 s
-constexpr std::int64_t kNeighborhoodEffort =
-    1'000'000;                                  // of the core-guided search, per neighbourhood
+constexpr std::int64_t kNeighborhoodEffort = 1'000'000;  // of the core-guided search
 constexpr int kFailuresWithoutAssignment = 20;  // added to the failures if no assignment is found
 constexpr int kMaxFailures = 200;  // assignments in succession that lead to no cheaper plan
 
@@ -54,7 +53,7 @@ class PlanSearches {
       : options_(options),
         limits_(limits),
         has_neighborhoods_(AllAssignmentsSearch::is_available(options) &&
-                           std::ranges::any_of(instance.agents(), &has_optional_tasks)),
+                           has_optional_tasks(instance)),
         assignments_(assignments),
         exchanges_(exchanges),
         neighborhoods_(neighborhoods),
@@ -96,8 +95,6 @@ class PlanSearches {
   }
 
  private:
-  static bool has_optional_tasks(const Agent& agent) { return !agent.options.empty(); }
-
   void search_next(bool with_bounds) {
     const auto next = assignments_.next(result_.cost(), limits_);
     if (next) result_.search(*next, with_bounds ? kOtherShareWithAll : kOtherShare);

@@ -33,11 +33,11 @@ constexpr std::int64_t kRoutesEffort = 150'000'000;
 constexpr double kRoutesShare = 0.2;
 constexpr Cost kMarginOffset = 100;  // after a failure the margin is at most (bound + this) / 2
 
+}  // namespace
+
 bool has_optional_tasks(const Instance& instance) {
   return std::ranges::any_of(instance.agents(), [](const Agent& a) { return !a.options.empty(); });
 }
-
-}  // namespace
 
 void improve_routes(RouteBound& routes, const SolveOptions& options, const Limits& limits) {
   routes.improve(kRoutesEffort, part_of(limits, options, kRoutesShare));

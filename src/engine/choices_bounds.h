@@ -13,6 +13,8 @@
 
 namespace grove::detail {
 
+// May an agent visit a task or leave it out?
+bool has_optional_tasks(const Instance& instance);
 // Improves the bound on routes for about 1 s.
 void improve_routes(RouteBound& routes, const SolveOptions& options, const Limits& limits);
 

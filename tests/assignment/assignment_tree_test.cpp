@@ -147,16 +147,11 @@ TEST(AssignmentTree, BoundsAreTrue) {
   EXPECT_GT(leaves, 50);
 }
 
-Instance in_a_row(InstanceBuilder builder) {
-  builder.add_task("t", Place{4}, std::vector<std::string>{"a", "b"}, 0, 1);
-  return std::move(builder).build();
-}
-
 InstanceBuilder row() {
   return InstanceBuilder(Grid(8, 1, std::vector<bool>(8, true)));
 }
 
-// No leaf gives the agent with a choice the goal of the other one.
+// After fixing, no choice is left of the goal of an agent without a choice.
 TEST(AssignmentTree, GoalOfAnAgentWithoutAChoice) {
   InstanceBuilder builder = row();
   builder.add_agent({.id = "a",
@@ -164,7 +159,8 @@ TEST(AssignmentTree, GoalOfAnAgentWithoutAChoice) {
                      .goal = {},
                      .goals = std::vector<Place>{Place{0}, Place{6}}});
   builder.add_agent("b", Place{5}, Place{6});
-  const Instance instance = in_a_row(std::move(builder));
+  builder.add_task("t", Place{4}, std::vector<std::string>{"a", "b"}, 0, 1);
+  const Instance instance = std::move(builder).build();
   const DistanceFields distances(instance);
   AssignmentSearch search(instance, distances, 1);
   ASSERT_TRUE(search.first(Limits()));
@@ -211,14 +207,15 @@ TEST(ChoiceNeighborhoods, TheLastOneIsTheWholeInstance) {
         ChoiceNeighborhoods neighborhoods(instance, routes, bound, 1);
         neighborhoods.start_from(with_stated_visits(instance, *start.plan), Limits());
         bool includes = false;
-        int drawn = 0;
-        while (RouteBound* const choices = neighborhoods.next(Limits())) {
-          ++drawn;
-          EXPECT_TRUE(choices->is_feasible());
-          includes |= permits(instance, choices->choices(), *truth.plan);
-        }
-        EXPECT_TRUE(includes || drawn == 0);
-        plans += drawn > 0 ? 1 : 0;
+        while (!neighborhoods.is_over())
+          if (RouteBound* const choices = neighborhoods.next(Limits())) {
+            EXPECT_TRUE(choices->is_feasible());
+            includes |= permits(instance, choices->choices(), *truth.plan);
+          }
+        if (!bound.fix(start.plan->cost, Limits())) return;  // then there are none
+        EXPECT_TRUE(bound.is_feasible());
+        EXPECT_TRUE(includes);
+        ++plans;
       });
   EXPECT_GT(plans, 20);
 }
